@@ -1,0 +1,98 @@
+/* c99.h - the shared source as C99 (and C++17).
+ *
+ * For the same bits as every other backend compile with -ffp-contract=off: where neither the option nor the pragma
+ * below is honoured (gcc in GNU mode, on a processor with fused multiply-add) a compiler may fuse a*b+c by itself. */
+#ifndef LOBE_BACKEND_C99_H
+#define LOBE_BACKEND_C99_H
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "lobe needs float arithmetic in float: on 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
+
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+typedef uint32_t lobe_uint;
+typedef int32_t lobe_int;
+typedef uint64_t lobe_uint64;
+typedef int64_t lobe_int64;
+
+/* A row loop sets LOBE_FN to an always-inline form, since a loop with a call in it does not vectorise. */
+#ifndef LOBE_FN
+#define LOBE_FN static inline
+#endif
+
+#if LOBE_DOUBLE
+
+typedef double lobe_real;
+#define LOBE_R(x) x
+#define LOBE_REAL_MAX DBL_MAX
+LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c) { return fma(a, b, c); }
+LOBE_FN lobe_real lobe_sqrt(lobe_real x) { return sqrt(x); }
+LOBE_FN lobe_real lobe_abs(lobe_real x) { return fabs(x); }
+
+#else
+
+typedef float lobe_real;
+#define LOBE_R(x) x##f
+#define LOBE_REAL_MAX FLT_MAX
+
+LOBE_FN lobe_real lobe_sqrt(lobe_real x) { return sqrtf(x); }
+LOBE_FN lobe_real lobe_abs(lobe_real x) { return fabsf(x); }
+
+LOBE_FN lobe_uint lobe_to_bits(lobe_real x)
+{
+	lobe_uint b;
+	memcpy(&b, &x, sizeof b);
+	return b;
+}
+
+LOBE_FN lobe_real lobe_from_bits(lobe_uint b)
+{
+	lobe_real x;
+	memcpy(&x, &b, sizeof x);
+	return x;
+}
+
+#ifdef __FP_FAST_FMAF
+
+LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c) { return fmaf(a, b, c); }
+
+#else
+
+/* a*b + c rounded once, on a processor without the instruction; unlike libm's fmaf it vectorises.
+ * The product of two floats is exact in double. The double sum is rounded to odd (Boldo and Melquiond 2008, "Emulation
+ * of FMA and correctly rounded sums"): with the rounding error of the sum known exactly (Knuth's TwoSum) the sum is cut
+ * off towards 0, and its last bit set where anything was lost. Rounding that to float is correct, since 53 >= 24 + 2.
+ * An infinite or NaN sum has a NaN error and stays as it is. All on the bits, with what SSE2 has: no 64-bit comparison,
+ * no signed shift, and nothing that a compiler would turn into a branch. */
+LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c)
+{
+	const uint64_t sign = 0x8000000000000000u, magnitude = 0x7fffffffffffffffu, mantissa = 0x000fffffffffffffu;
+	const double p = (double)a * (double)b;
+	const double d = (double)c;
+	const double s = p + d;
+	const double dd = s - p;
+	const double err = (p - (s - dd)) + (d - dd);
+	uint64_t bits, err_bits;
+	double odd;
+	memcpy(&bits, &s, sizeof bits);
+	memcpy(&err_bits, &err, sizeof err_bits);
+	const uint64_t size = err_bits & magnitude;
+	const uint64_t nan = (size + mantissa) >> 63;
+	const uint64_t inexact = ((size + magnitude) >> 63) ^ nan;
+	const uint64_t too_far = inexact & (((err_bits ^ bits) & sign) >> 63);
+	bits = (bits - too_far) | inexact;
+	memcpy(&odd, &bits, sizeof odd);
+	return (lobe_real)odd;
+}
+
+#endif
+#endif
+#endif

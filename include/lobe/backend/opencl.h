@@ -1,0 +1,26 @@
+/* opencl.h - the shared source as OpenCL C 1.2 or later. Single precision only.
+ *
+ * Build with -cl-fp32-correctly-rounded-divide-sqrt and without any relaxed-math option (lobe_opencl_options() gives
+ * the full list): then + - * / sqrt and fma are IEEE 754 and every result has the same bits as in C. */
+#ifndef LOBE_BACKEND_OPENCL_H
+#define LOBE_BACKEND_OPENCL_H
+
+#pragma OPENCL FP_CONTRACT OFF
+
+typedef float lobe_real;
+typedef uint lobe_uint;
+typedef int lobe_int;
+typedef ulong lobe_uint64;
+typedef long lobe_int64;
+
+#define LOBE_R(x) x##f
+#define LOBE_REAL_MAX 0x1.fffffep+127f
+#define LOBE_FN static inline
+
+LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c) { return fma(a, b, c); }
+LOBE_FN lobe_real lobe_sqrt(lobe_real x) { return sqrt(x); }
+LOBE_FN lobe_real lobe_abs(lobe_real x) { return fabs(x); }
+LOBE_FN lobe_uint lobe_to_bits(lobe_real x) { return as_uint(x); }
+LOBE_FN lobe_real lobe_from_bits(lobe_uint b) { return as_float(b); }
+
+#endif

@@ -1,0 +1,139 @@
+/* batch.h - devices, scenes and batches: shade many elements at once, natively or on OpenCL, to the same bits.
+ *
+ *	lobe_device *device;
+ *	lobe_scene *scene;
+ *	if (lobe_device_open(&device, "opencl") != LOBE_OK)
+ *		puts(lobe_error_message());
+ *	lobe_scene_create(&scene, device, materials, material_count);
+ *	lobe_scene_sample(scene, &batch);
+ *
+ * Every call returns a lobe_status. One that fails leaves its outputs and everything else as they were, and
+ * lobe_error_message() says what was wrong, naming the argument or field. (Results of a batch that fails on an OpenCL
+ * device halfway, out of memory say, are unspecified.)
+ *
+ * Threads: a device and the scenes made from it may be used from several threads; calls on one device take turns.
+ * Distinct devices are independent. Closing or destroying something in use is the caller's mistake. */
+#ifndef LOBE_BATCH_H
+#define LOBE_BATCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "bsdf.h"
+
+#if LOBE_DOUBLE
+#error "batches are single precision: include shading.h alone in LOBE_DOUBLE builds"
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum {
+	LOBE_OK = 0,
+	LOBE_ERROR_ARGUMENT,  /* a null or misaligned pointer, overlapping arrays, an index out of range */
+	LOBE_ERROR_PARAMETER, /* a material's field is not finite or outside its domain */
+	LOBE_ERROR_DEVICE,    /* no such backend or device, or no OpenCL runtime */
+	LOBE_ERROR_BUILD,     /* the OpenCL compiler refused the program; the message holds its log */
+	LOBE_ERROR_MEMORY,    /* the host or the device is out of memory */
+	LOBE_ERROR_OPENCL     /* any other OpenCL failure; the message names the call and its code */
+} lobe_status;
+
+/* The name of a status, e.g. "LOBE_OK". Never null. */
+const char *lobe_status_string(lobe_status status);
+
+/* Why the last call of this thread that failed did so. Never null; "" if none has. Valid until the thread's next call. */
+const char *lobe_error_message(void);
+
+typedef struct lobe_device lobe_device;
+typedef struct lobe_scene lobe_scene;
+
+/* Devices that backend "native" (always 1) or "opencl" (all devices of all platforms; 0 without a runtime) offers. */
+lobe_status lobe_device_count(const char *backend, size_t *count);
+
+/* Opens a device by name:
+ *	"native"     a thread for each processor online
+ *	"native:N"   N threads, 1 to 1024
+ *	"opencl"     the first OpenCL device (the same as "opencl:0")
+ *	"opencl:N"   OpenCL device N, counted over all platforms
+ * A native device runs the widest instruction set of "baseline", "avx2" and "avx512" that was compiled in and that the
+ * processor has; the environment variable LOBE_ISA names a narrower one. Results do not depend on it. */
+lobe_status lobe_device_open(lobe_device **out, const char *name);
+
+/* What the device is, for people: "native, avx2, 2 threads", "opencl:0, PLATFORM, DEVICE". Valid until it is closed. */
+const char *lobe_device_name(const lobe_device *device);
+
+/* Releases the device. Its scenes must have been destroyed before. Null does nothing. */
+void lobe_device_close(lobe_device *device);
+
+/* Takes a copy of materials[0..count), each checked field by field, and prepares the device for the kinds of lobe in it
+ * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds. */
+lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count);
+
+/* Null does nothing. */
+void lobe_scene_destroy(lobe_scene *scene);
+
+/* A batch as structure of arrays, each of count elements, aligned as its element type is. An output that is NULL is not
+ * wanted; the three components of a vector are wanted together or not at all. Inputs may be the same arrays as each
+ * other; an output must not overlap any input or other output (LOBE_ERROR_ARGUMENT).
+ *
+ * count 0 is allowed and does nothing. Inputs of one element never affect another's result. */
+typedef struct {
+	size_t count;
+	const uint32_t *material; /* index into the scene's materials, or NULL: material 0 for every element */
+	const float *wo[3], *wi[3], *u[3]; /* wo always; wi for eval; u, each in [0,1), for sample */
+	float *f[3], *pdf;                 /* eval */
+	float *sample_wi[3], *weight[3], *sample_pdf;
+	uint32_t *event; /* sample */
+} lobe_batch;
+
+/* f |cos theta_i| and the pdf, whichever is asked for. At least one of f and pdf must be. */
+lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch);
+
+/* sample_wi, weight, sample_pdf and event, whichever are asked for. At least one must be. */
+lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch);
+
+/* --- OpenCL ---------------------------------------------------------------------------------------------------- */
+
+/* OpenCL's own handles, without its headers: cl_context is a struct _cl_context * and so on. */
+struct _cl_context;
+struct _cl_device_id;
+struct _cl_command_queue;
+struct _cl_mem;
+
+/* The shared source, shading.h and all that it includes, as one string. Put it before your own kernels. */
+const char *lobe_opencl_source(void);
+
+/* Build options for a program that holds lobe_opencl_source() and serves this scene: exact arithmetic, and the scene's
+ * kinds of lobe only. scene NULL: every lobe. Valid until the scene is destroyed. */
+const char *lobe_opencl_options(const lobe_scene *scene);
+
+/* A device on the caller's own context, device and in-order queue, each retained until the device is closed. */
+lobe_status lobe_device_open_cl(lobe_device **out, struct _cl_context *context, struct _cl_device_id *device,
+				struct _cl_command_queue *queue);
+
+/* The context, device and queue of an OpenCL device, so that buffers can be made for it; each still owned by it.
+ * Any of the three may be NULL. LOBE_ERROR_ARGUMENT for a native device. */
+lobe_status lobe_device_cl(const lobe_device *device, struct _cl_context **context, struct _cl_device_id **id,
+			   struct _cl_command_queue **queue);
+
+/* lobe_batch with buffers that stay on the device: each holds at least count elements of 4 bytes from offset 0. The same
+ * rules, except that two handles to overlapping memory (sub-buffers) cannot be noticed. The call enqueues on the
+ * device's queue and returns; clFinish or a blocking read waits for the results. With a material buffer and more than
+ * one kind of lobe in the scene, the indices are read back first, to sort by kind. */
+typedef struct {
+	size_t count;
+	struct _cl_mem *material;
+	struct _cl_mem *wo[3], *wi[3], *u[3];
+	struct _cl_mem *f[3], *pdf;
+	struct _cl_mem *sample_wi[3], *weight[3], *sample_pdf, *event;
+} lobe_cl_batch;
+
+lobe_status lobe_scene_eval_cl(lobe_scene *scene, const lobe_cl_batch *batch);
+lobe_status lobe_scene_sample_cl(lobe_scene *scene, const lobe_cl_batch *batch);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,29 @@
+/* config.h - what is compiled. Every switch is always defined, as 0 or 1.
+ *
+ * LOBE_DOUBLE       1: lobe_real is double and core/real.h maps to libm (reference builds only)
+ * LOBE_HAS_DEFAULT  what a lobe's switch is when nobody sets it
+ * LOBE_HAS_<LOBE>   0 leaves the lobe out: its header, its place in lobe_bsdf, its kernels
+ *
+ * A scene of two lobes compiles with -DLOBE_HAS_DEFAULT=0 and one -DLOBE_HAS_<LOBE>=1 for each. */
+#ifndef LOBE_CONFIG_H
+#define LOBE_CONFIG_H
+
+#ifndef LOBE_DOUBLE
+#define LOBE_DOUBLE 0
+#endif
+
+#ifndef LOBE_HAS_DEFAULT
+#define LOBE_HAS_DEFAULT 1
+#endif
+
+#ifndef LOBE_HAS_LAMBERT
+#define LOBE_HAS_LAMBERT LOBE_HAS_DEFAULT
+#endif
+#ifndef LOBE_HAS_GGX_CONDUCTOR
+#define LOBE_HAS_GGX_CONDUCTOR LOBE_HAS_DEFAULT
+#endif
+#ifndef LOBE_HAS_GGX_DIELECTRIC
+#define LOBE_HAS_GGX_DIELECTRIC LOBE_HAS_DEFAULT
+#endif
+
+#endif

@@ -1,0 +1,134 @@
+/* fresnel.h - reflection, refraction and total reflection at a smooth interface.
+ *
+ * Throughout, c = |cos theta| of the incident side against the (micro)normal, in [0, 1], and eta = index of the far side
+ * over the index of the incident side. Unpolarised light. */
+#ifndef LOBE_CORE_FRESNEL_H
+#define LOBE_CORE_FRESNEL_H
+
+#include "vec.h"
+
+/* reflectance + transmittance = 1 to rounding. cos_t: cosine of the refracted side, >= 0; 0 at total reflection. */
+typedef struct {
+	lobe_real reflectance, transmittance, cos_t;
+} lobe_fresnel;
+
+/* Exact dielectric Fresnel. Domain: eta in [1/1000, 1000].
+ *
+ * With g = eta cos_t, A = c + g, B = eta^2 c + g and k = (eta-1)(eta+1) = g^2 - c^2 the amplitudes (Born and Wolf, 1.5.2)
+ *	r_s = (c - g)/A              = -k/A^2
+ *	r_p = (eta^2 c - g)/B        = k (c A - 1)/(A B)
+ * are free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle), and so is
+ *	1 - F = 2 g c (1/A^2 + eta^2/B^2)
+ * near total reflection. eta = 1 is no interface: F = 0 even at c = 0. Below 2^-40 c counts as 2^-40. */
+LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c_in, lobe_real eta)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
+	const lobe_real c = lobe_max(c_in, LOBE_R(0x1p-40));
+	const lobe_real k = (eta - one) * (eta + one);
+	const lobe_real eta2 = eta * eta;
+	const lobe_real g2 = lobe_fma(c, c, k);
+	const int refracts = g2 > zero;
+	const lobe_real g = lobe_sqrt(refracts ? g2 : zero);
+	const lobe_real big_a = c + g;
+	const lobe_real big_b = lobe_fma(eta2, c, g);
+	const lobe_real inv = one / (big_a * big_b);
+	const lobe_real a = big_b * inv;
+	const lobe_real b = big_a * inv;
+	const lobe_real rs = k * a * a;
+	const lobe_real rp = k * lobe_fma(c, big_a, -one) * a * b;
+	const lobe_real refl = LOBE_R(0.5) * lobe_fma(rs, rs, rp * rp);
+	const lobe_real trans = two * g * c * lobe_fma(a, a, eta2 * b * b);
+	lobe_fresnel f;
+	f.reflectance = refracts ? lobe_min(refl, one) : one;
+	f.transmittance = refracts ? lobe_min(trans, one) : zero;
+	f.cos_t = g / eta;
+	return f;
+}
+
+/* The refracted direction of w through an interface with unit normal m, both on the incident side: w.m = c > 0, and
+ * cos_t from lobe_fresnel_dielectric(c, eta). Unit to a few ulp. Snell's law in the form
+ *	-(w + (g - c) m)/eta,  g - c = k/(g + c),
+ * which turns into -w without cancellation as eta goes to 1. At total reflection the result means nothing. */
+LOBE_FN lobe_vec3 lobe_refract(lobe_vec3 w, lobe_vec3 m, lobe_real c, lobe_real eta, lobe_real cos_t)
+{
+	const lobe_real one = LOBE_R(1.0);
+	const lobe_real k = (eta - one) * (eta + one);
+	const lobe_real sum = lobe_fma(eta, cos_t, c);
+	const lobe_real g_minus_c = k / lobe_max(sum, LOBE_R(0x1p-40));
+	return lobe_vec3_scale(lobe_vec3_fma(g_minus_c, m, w), -one / eta);
+}
+
+/* The mirrored direction of w about the unit normal m, c = w.m: 2 c m - w. */
+LOBE_FN lobe_vec3 lobe_reflect(lobe_vec3 w, lobe_vec3 m, lobe_real c)
+{
+	return lobe_vec3_fma(c + c, m, lobe_vec3_make(-w.x, -w.y, -w.z));
+}
+
+/* What lobe_fresnel_conductor needs of the angle, shared by the three colours. */
+typedef struct {
+	lobe_real c, c2, s2, s4;
+} lobe_fresnel_angle;
+
+LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_make(lobe_real c)
+{
+	const lobe_real one = LOBE_R(1.0);
+	lobe_fresnel_angle a;
+	a.c = c;
+	a.c2 = c * c;
+	a.s2 = (one - c) * (one + c);
+	a.s4 = a.s2 * a.s2;
+	return a;
+}
+
+/* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
+ * Domain: n in [1/1000, 1000], k in [0, 1000].
+ *
+ * Let (A + iK)^2 = (n + ik)^2 - sin^2. The usual form (Born and Wolf, 14.2) needs 2Ac and a^2 + b^2 = |n^2-k^2-s^2 + 2nki|
+ * =: q, with A = sqrt((q + t)/2), t = n^2 - k^2 - s^2. For a metal t < 0 and q + t cancels; then A = nk/K with
+ * K = sqrt((q - t)/2), which does not. Multiplied through by B = max(A, K), both cases need one root and no division:
+ *	F_s = N/D,  N, D = (q + c^2) B -+ X c,        X = q + t if t >= 0, else 2nk
+ *	F = F_s E/(E + X c s^2),                      E = (q c^2 + s^4) B
+ * where the second line is (F_s + F_p)/2. */
+LOBE_FN lobe_real lobe_fresnel_conductor_at(lobe_fresnel_angle a, lobe_real n, lobe_real k)
+{
+	const lobe_real zero = LOBE_R(0.0);
+	const lobe_real nk2 = (n + n) * k;
+	const lobe_real t = (n - k) * (n + k) - a.s2;
+	const lobe_real q = lobe_sqrt(lobe_fma(t, t, nk2 * nk2));
+	const lobe_real sum = q + lobe_abs(t);
+	const lobe_real b = lobe_sqrt(LOBE_R(0.5) * sum);
+	const lobe_real xc = (t >= zero ? sum : nk2) * a.c;
+	const lobe_real p = (q + a.c2) * b;
+	const lobe_real e = lobe_fma(q, a.c2, a.s4) * b;
+	const lobe_real num = lobe_max(p - xc, zero) * e;
+	const lobe_real den = (p + xc) * lobe_fma(xc, a.s2, e);
+	return num / den;
+}
+
+LOBE_FN lobe_real lobe_fresnel_conductor(lobe_real c, lobe_real n, lobe_real k)
+{
+	return lobe_fresnel_conductor_at(lobe_fresnel_angle_make(c), n, k);
+}
+
+LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
+{
+	const lobe_fresnel_angle a = lobe_fresnel_angle_make(c);
+	return lobe_rgb_make(lobe_fresnel_conductor_at(a, n.r, k.r), lobe_fresnel_conductor_at(a, n.g, k.g),
+			     lobe_fresnel_conductor_at(a, n.b, k.b));
+}
+
+/* Schlick 1994: f0 + (1 - f0)(1 - c)^5. f0: reflectance at normal incidence, in [0, 1]. Against the exact dielectric the
+ * largest absolute error is .060 at index 1.33 and .036 at 1.5. From the dense side use the transmitted cosine as c. */
+LOBE_FN lobe_real lobe_fresnel_schlick(lobe_real c, lobe_real f0)
+{
+	const lobe_real m = LOBE_R(1.0) - c;
+	const lobe_real m2 = m * m;
+	return lobe_fma(LOBE_R(1.0) - f0, m2 * m2 * m, f0);
+}
+
+LOBE_FN lobe_rgb lobe_fresnel_schlick_rgb(lobe_real c, lobe_rgb f0)
+{
+	return lobe_rgb_make(lobe_fresnel_schlick(c, f0.r), lobe_fresnel_schlick(c, f0.g), lobe_fresnel_schlick(c, f0.b));
+}
+
+#endif
