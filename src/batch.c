@@ -1,0 +1,369 @@
+/* batch.c - the front of devices, scenes and batches: checks every argument, then hands over to a backend. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "internal.h"
+
+/* --- devices ----------------------------------------------------------------------------------------------------- */
+
+lobe_status lobe_device_count(const char *backend, size_t *count)
+{
+	if (!backend || !count)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_count: %s is NULL", backend ? "count" : "backend");
+	if (strcmp(backend, "native") == 0) {
+		*count = 1;
+		return LOBE_OK;
+	}
+	if (strcmp(backend, "opencl") == 0)
+		return lobe_opencl_count(count);
+	return lobe_fail(LOBE_ERROR_DEVICE, "lobe_device_count: no backend \"%s\"; there are \"native\" and \"opencl\"",
+			 backend);
+}
+
+/* The number behind "backend:" in name; 0 and *given = 0 for "backend" alone. Returns 0 when name is something else. */
+static int parse_name(const char *name, const char *backend, size_t *number, int *given)
+{
+	const size_t length = strlen(backend);
+	*number = 0;
+	*given = 0;
+	if (strncmp(name, backend, length) != 0)
+		return 0;
+	const char *s = name + length;
+	if (!*s)
+		return 1;
+	if (*s++ != ':' || !*s)
+		return 0;
+	for (; *s >= '0' && *s <= '9' && *number < 1000000; s++)
+		*number = *number * 10 + (size_t)(*s - '0');
+	*given = 1;
+	return !*s;
+}
+
+lobe_status lobe_device_open(lobe_device **out, const char *name)
+{
+	size_t number;
+	int given;
+	if (!out || !name)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_open: %s is NULL", out ? "name" : "out");
+	if (parse_name(name, "native", &number, &given)) {
+		if (given && (number < 1 || number > 1024))
+			return lobe_fail(LOBE_ERROR_DEVICE, "lobe_device_open: \"%s\": threads must be 1 to 1024", name);
+		return lobe_native_open(out, number);
+	}
+	if (parse_name(name, "opencl", &number, &given))
+		return lobe_opencl_open(out, number);
+	return lobe_fail(LOBE_ERROR_DEVICE,
+			 "lobe_device_open: no device \"%s\"; names are native, native:THREADS, opencl, opencl:INDEX", name);
+}
+
+const char *lobe_device_name(const lobe_device *device)
+{
+	return device ? device->name : "";
+}
+
+void lobe_device_close(lobe_device *device)
+{
+	if (device)
+		device->ops->close(device);
+}
+
+/* --- scenes ------------------------------------------------------------------------------------------------------ */
+
+/* Exact arithmetic; see backend/opencl.h. */
+#define BASE_OPTIONS "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
+
+const char *lobe_opencl_options(const lobe_scene *scene)
+{
+	return scene ? scene->options : BASE_OPTIONS;
+}
+
+/* BASE_OPTIONS and a -DLOBE_HAS_<LOBE>=1 for each lobe with a material. NULL: out of memory. */
+static char *make_options(const lobe_scene *scene)
+{
+	static const char *const names[LOBE_COUNT + 1] = {
+#define LOBE_X(NAME, name, kind) #NAME,
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+		NULL};
+	size_t size = sizeof BASE_OPTIONS + sizeof " -DLOBE_HAS_DEFAULT=0";
+	for (int i = 0; i < LOBE_COUNT; i++)
+		size += scene->table[i].count ? sizeof " -DLOBE_HAS_=1" + strlen(names[i]) : 0;
+	char *options = malloc(size);
+	if (!options)
+		return NULL;
+	size_t at = (size_t)snprintf(options, size, "%s -DLOBE_HAS_DEFAULT=0", BASE_OPTIONS);
+	for (int i = 0; i < LOBE_COUNT; i++)
+		if (scene->table[i].count)
+			at += (size_t)snprintf(options + at, size - at, " -DLOBE_HAS_%s=1", names[i]);
+	return options;
+}
+
+static void free_scene(lobe_scene *scene)
+{
+	for (int i = 0; i < LOBE_COUNT; i++)
+		free(scene->table[i].params);
+	free(scene->index);
+	free(scene->slot);
+	free(scene->options);
+	free(scene);
+}
+
+/* Fills index, slot, table and options from materials that have been checked. 0 when out of memory. */
+static int fill_scene(lobe_scene *scene, const lobe_bsdf *materials)
+{
+	scene->index = malloc(scene->count * sizeof *scene->index);
+	scene->slot = malloc(scene->count * sizeof *scene->slot);
+	if (!scene->index || !scene->slot)
+		return 0;
+	uint32_t none = 0;
+	for (size_t i = 0; i < scene->count; i++) {
+		const int index = lobe_index_of_kind(materials[i].kind);
+		scene->index[i] = (uint32_t)index;
+		scene->slot[i] = index == LOBE_INDEX_NONE ? none++ : (uint32_t)scene->table[index].count++;
+	}
+	for (int i = 0; i < LOBE_COUNT; i++)
+		if (scene->table[i].count && !(scene->table[i].params = malloc(scene->table[i].count * lobe_param_size[i])))
+			return 0;
+	for (size_t i = 0; i < scene->count; i++) {
+		const uint32_t index = scene->index[i];
+		if (index == LOBE_INDEX_NONE)
+			continue;
+		const size_t size = lobe_param_size[index];
+		memcpy((unsigned char *)scene->table[index].params + scene->slot[i] * size, &materials[i].as, size);
+	}
+	return (scene->options = make_options(scene)) != NULL;
+}
+
+lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count)
+{
+	if (!out || !device || !materials)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_scene_create: %s is NULL",
+				 !out ? "out" : (!device ? "device" : "materials"));
+	if (count == 0 || count > UINT32_MAX)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_scene_create: count is %zu, not 1 to 2^32 - 1", count);
+	for (size_t i = 0; i < count; i++) {
+		const lobe_status status = lobe_check_material(materials, i);
+		if (status != LOBE_OK)
+			return status;
+	}
+	lobe_scene *scene = calloc(1, sizeof *scene);
+	if (!scene)
+		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_scene_create: out of memory");
+	scene->device = device;
+	scene->count = count;
+	lobe_status status = LOBE_OK;
+	if (!fill_scene(scene, materials))
+		status = lobe_fail(LOBE_ERROR_MEMORY, "lobe_scene_create: out of memory for %zu materials", count);
+	else
+		status = device->ops->scene_create(scene);
+	if (status != LOBE_OK) {
+		free_scene(scene);
+		return status;
+	}
+	*out = scene;
+	return LOBE_OK;
+}
+
+void lobe_scene_destroy(lobe_scene *scene)
+{
+	if (!scene)
+		return;
+	scene->device->ops->scene_destroy(scene);
+	free_scene(scene);
+}
+
+/* --- batches ----------------------------------------------------------------------------------------------------- */
+
+/* The arrays of a job for error messages, by verb and position. */
+static const char *const in_names[2][LOBE_IN_COUNT] = {{"wo[0]", "wo[1]", "wo[2]", "wi[0]", "wi[1]", "wi[2]"},
+						       {"wo[0]", "wo[1]", "wo[2]", "u[0]", "u[1]", "u[2]"}};
+static const char *const out_names[2][LOBE_OUT_COUNT] = {
+	{"f[0]", "f[1]", "f[2]", "pdf", "", "", "", ""},
+	{"sample_wi[0]", "sample_wi[1]", "sample_wi[2]", "weight[0]", "weight[1]", "weight[2]", "sample_pdf", "event"}};
+
+/* Inputs there, vectors whole, at least one output. */
+static lobe_status check_presence(const lobe_job *job, int sample, const char *call)
+{
+	for (int i = 0; i < LOBE_IN_COUNT; i++)
+		if (!job->in[i])
+			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s is NULL", call, in_names[sample][i]);
+	int wanted = 0;
+	for (int i = 0; i < LOBE_OUT_COUNT; i++)
+		wanted += job->out[i] != NULL;
+	if (!wanted)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: every output of the batch is NULL", call);
+	for (int first = 0; first <= (sample ? 3 : 0); first += 3)
+		for (int i = first; i < first + 3; i++)
+			if (!job->out[i] != !job->out[first])
+				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s is NULL but batch->%s is not", call,
+						 out_names[sample][job->out[i] ? first : i],
+						 out_names[sample][job->out[i] ? i : first]);
+	return LOBE_OK;
+}
+
+static int overlap(const void *a, const void *b, size_t bytes)
+{
+	const uintptr_t x = (uintptr_t)a, y = (uintptr_t)b;
+	return x && y && (x < y ? y - x < bytes : x - y < bytes);
+}
+
+/* Host pointers aligned, outputs apart from everything else, material indices in range. */
+static lobe_status check_host(const lobe_scene *scene, const lobe_job *job, int sample, const char *call)
+{
+	const void *array[LOBE_IN_COUNT + LOBE_OUT_COUNT + 1];
+	const char *name[LOBE_IN_COUNT + LOBE_OUT_COUNT + 1];
+	const int count = LOBE_IN_COUNT + LOBE_OUT_COUNT + 1;
+	for (int i = 0; i < LOBE_OUT_COUNT; i++) {
+		array[i] = job->out[i];
+		name[i] = out_names[sample][i];
+	}
+	for (int i = 0; i < LOBE_IN_COUNT; i++) {
+		array[LOBE_OUT_COUNT + i] = job->in[i];
+		name[LOBE_OUT_COUNT + i] = in_names[sample][i];
+	}
+	array[count - 1] = job->material;
+	name[count - 1] = "material";
+	if (job->count > SIZE_MAX / 4)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->count is %zu, too many for memory", call, job->count);
+	for (int i = 0; i < count; i++)
+		if ((uintptr_t)array[i] % 4)
+			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s = %p is not aligned to 4 bytes", call, name[i],
+					 array[i]);
+	for (int i = 0; i < LOBE_OUT_COUNT; i++)
+		for (int k = i + 1; k < count; k++)
+			if (overlap(array[i], array[k], job->count * 4))
+				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s overlaps batch->%s", call,
+						 name[i], name[k]);
+	const uint32_t *material = job->material;
+	for (size_t i = 0; material && i < job->count; i++)
+		if (material[i] >= scene->count)
+			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->material[%zu] = %u, but the scene has %zu", call, i,
+					 material[i], scene->count);
+	return LOBE_OK;
+}
+
+static int eval_verb(const lobe_job *job)
+{
+	if (!job->out[LOBE_OUT_PDF])
+		return LOBE_VERB_EVAL_F;
+	return job->out[LOBE_OUT_F] ? LOBE_VERB_EVAL_F_PDF : LOBE_VERB_EVAL_PDF;
+}
+
+static int sample_verb(const lobe_job *job)
+{
+	return job->out[LOBE_OUT_WEIGHT] || job->out[LOBE_OUT_SAMPLE_PDF] ? LOBE_VERB_SAMPLE : LOBE_VERB_SAMPLE_WI;
+}
+
+/* lobe_batch and lobe_cl_batch have the same members, pointers or handles. */
+#define FILL_IN(job, batch, second)                                                                                    \
+	do {                                                                                                           \
+		(job).count = (batch)->count;                                                                          \
+		(job).material = (batch)->material;                                                                    \
+		for (int i = 0; i < 3; i++) {                                                                          \
+			(job).in[i] = (batch)->wo[i];                                                                  \
+			(job).in[3 + i] = (batch)->second[i];                                                          \
+		}                                                                                                      \
+	} while (0)
+#define FILL_EVAL(job, batch)                                                                                          \
+	do {                                                                                                           \
+		FILL_IN(job, batch, wi);                                                                               \
+		for (int i = 0; i < 3; i++)                                                                            \
+			(job).out[LOBE_OUT_F + i] = (batch)->f[i];                                                     \
+		(job).out[LOBE_OUT_PDF] = (batch)->pdf;                                                                \
+	} while (0)
+#define FILL_SAMPLE(job, batch)                                                                                        \
+	do {                                                                                                           \
+		FILL_IN(job, batch, u);                                                                                \
+		for (int i = 0; i < 3; i++) {                                                                          \
+			(job).out[LOBE_OUT_WI + i] = (batch)->sample_wi[i];                                            \
+			(job).out[LOBE_OUT_WEIGHT + i] = (batch)->weight[i];                                           \
+		}                                                                                                      \
+		(job).out[LOBE_OUT_SAMPLE_PDF] = (batch)->sample_pdf;                                                  \
+		(job).out[LOBE_OUT_EVENT] = (batch)->event;                                                            \
+	} while (0)
+
+static lobe_status check_call(const void *scene, const void *batch, const char *call)
+{
+	if (!scene || !batch)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: %s is NULL", call, scene ? "batch" : "scene");
+	return LOBE_OK;
+}
+
+static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
+{
+	if (job->count == 0)
+		return LOBE_OK;
+	lobe_status status = check_presence(job, sample, call);
+	if (status == LOBE_OK)
+		status = check_host(scene, job, sample, call);
+	if (status != LOBE_OK)
+		return status;
+	job->verb = sample ? sample_verb(job) : eval_verb(job);
+	return scene->device->ops->run(scene, job);
+}
+
+static lobe_status run_device(lobe_scene *scene, lobe_job *job, int sample, const char *call)
+{
+	if (!scene->device->ops->run_device)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: device \"%s\" takes no cl_mem", call, scene->device->name);
+	if (job->count == 0)
+		return LOBE_OK;
+	const lobe_status status = check_presence(job, sample, call);
+	if (status != LOBE_OK)
+		return status;
+	for (int i = 0; i < LOBE_OUT_COUNT; i++) {
+		for (int k = i + 1; job->out[i] && k < LOBE_OUT_COUNT; k++)
+			if (job->out[i] == job->out[k])
+				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s is the same buffer as batch->%s",
+						 call, out_names[sample][i], out_names[sample][k]);
+		for (int k = 0; job->out[i] && k < LOBE_IN_COUNT; k++)
+			if (job->out[i] == job->in[k])
+				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s is the same buffer as batch->%s",
+						 call, out_names[sample][i], in_names[sample][k]);
+		if (job->out[i] && job->out[i] == job->material)
+			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s is the same buffer as batch->material",
+					 call, out_names[sample][i]);
+	}
+	job->verb = sample ? sample_verb(job) : eval_verb(job);
+	return scene->device->ops->run_device(scene, job);
+}
+
+lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_eval");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_EVAL(job, batch);
+	return run_host(scene, &job, 0, "lobe_scene_eval");
+}
+
+lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_sample");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_SAMPLE(job, batch);
+	return run_host(scene, &job, 1, "lobe_scene_sample");
+}
+
+lobe_status lobe_scene_eval_cl(lobe_scene *scene, const lobe_cl_batch *batch)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_eval_cl");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_EVAL(job, batch);
+	return run_device(scene, &job, 0, "lobe_scene_eval_cl");
+}
+
+lobe_status lobe_scene_sample_cl(lobe_scene *scene, const lobe_cl_batch *batch)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_sample_cl");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_SAMPLE(job, batch);
+	return run_device(scene, &job, 1, "lobe_scene_sample_cl");
+}

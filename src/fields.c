@@ -1,0 +1,107 @@
+/* fields.c - the fields of every lobe with their domains, so that the host can refuse a bad one by name.
+ *
+ * Fields that make prepares are listed too: a struct that was not made by its make function is refused. */
+#include <math.h>
+#include <stddef.h>
+
+#include "internal.h"
+
+typedef struct {
+	const char *name;
+	size_t offset;
+	int is_uint;
+	double min, max;
+} field;
+
+#define REAL(lobe, member, min, max) {#member, offsetof(lobe_##lobe, member), 0, min, max}
+#define UINT(lobe, member, max)      {#member, offsetof(lobe_##lobe, member), 1, 0, max}
+#define RGB(lobe, member, min, max)                                                                                    \
+	REAL(lobe, member.r, min, max), REAL(lobe, member.g, min, max), REAL(lobe, member.b, min, max)
+
+/* One float rounding is allowed at the ends. */
+#define ALPHA_MIN 0.99999e-4
+#define GGX(lobe)                                                                                                      \
+	REAL(lobe, ggx.alpha_x, ALPHA_MIN, 1), REAL(lobe, ggx.alpha_y, ALPHA_MIN, 1),                                  \
+		REAL(lobe, ggx.inv_alpha_x, 1, 1 / ALPHA_MIN), REAL(lobe, ggx.inv_alpha_y, 1, 1 / ALPHA_MIN),          \
+		REAL(lobe, ggx.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
+
+static const field fields_lambert[] = {RGB(lambert, reflectance, 0, 1)};
+
+static const field fields_ggx_conductor[] = {GGX(ggx_conductor), RGB(ggx_conductor, eta, 0.99999e-3, 1000),
+					     RGB(ggx_conductor, k, 0, 1000)};
+
+static const field fields_ggx_dielectric[] = {GGX(ggx_dielectric), REAL(ggx_dielectric, eta, 0.99999e-3, 1000.01),
+					      REAL(ggx_dielectric, inv_eta, 0.99999e-3, 1000.01),
+					      UINT(ggx_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
+					      UINT(ggx_dielectric, delta, 1)};
+
+static const struct {
+	uint32_t kind;
+	const field *fields;
+	size_t count;
+} lobes[LOBE_COUNT] = {
+#define LOBE_X(NAME, name, kind) {kind, fields_##name, sizeof fields_##name / sizeof *fields_##name},
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+
+/* Every member of a lobe is 4 bytes, so a field that the list above forgot shows here, at compile time. */
+#define LOBE_X(NAME, name, kind)                                                                                       \
+	typedef char every_field_of_##name[sizeof(lobe_##name) == 4 * (sizeof fields_##name / sizeof *fields_##name)   \
+						   ? 1                                                                 \
+						   : -1];
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+
+const size_t lobe_param_size[LOBE_COUNT] = {
+#define LOBE_X(NAME, name, kind) sizeof(lobe_##name),
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+
+const char *const lobe_param_name[LOBE_COUNT] = {
+#define LOBE_X(NAME, name, kind) #name,
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+
+int lobe_index_of_kind(uint32_t kind)
+{
+	if (kind == LOBE_KIND_NONE)
+		return LOBE_INDEX_NONE;
+	for (int i = 0; i < LOBE_COUNT; i++)
+		if (lobes[i].kind == kind)
+			return i;
+	return -1;
+}
+
+lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i)
+{
+	const int index = lobe_index_of_kind(materials[i].kind);
+	if (index < 0)
+		return lobe_fail(LOBE_ERROR_PARAMETER, "materials[%zu].kind = %u is no lobe of this library", i,
+				 materials[i].kind);
+	if (index == LOBE_INDEX_NONE)
+		return LOBE_OK;
+	for (size_t k = 0; k < lobes[index].count; k++) {
+		const field *f = &lobes[index].fields[k];
+		const unsigned char *at = (const unsigned char *)&materials[i].as + f->offset;
+		double value;
+		if (f->is_uint) {
+			uint32_t u;
+			memcpy(&u, at, sizeof u);
+			value = (double)u;
+		} else {
+			float x;
+			memcpy(&x, at, sizeof x);
+			value = (double)x;
+		}
+		if (!(value >= f->min && value <= f->max))
+			return lobe_fail(LOBE_ERROR_PARAMETER,
+					 "materials[%zu]: field %s of lobe_%s is %g, outside [%.5g, %.5g]; "
+					 "parameters come from lobe_%s_make",
+					 i, f->name, lobe_param_name[index], value, f->min, f->max,
+					 lobe_param_name[index]);
+	}
+	return LOBE_OK;
+}

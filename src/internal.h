@@ -1,0 +1,119 @@
+/* internal.h - what the batch front (batch.c) and the backends (native.c, opencl.c) share. */
+#ifndef LOBE_INTERNAL_H
+#define LOBE_INTERNAL_H
+
+#include <stdint.h>
+
+#include "lobe/lobe.h"
+
+/* Lobes numbered without gaps, in the order of lobes.def: the index of tables. */
+enum {
+#define LOBE_X(NAME, name, kind) LOBE_INDEX_##NAME,
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+	LOBE_COUNT,
+	LOBE_INDEX_NONE = LOBE_COUNT /* LOBE_KIND_NONE: nothing to run, outputs 0 */
+};
+
+/* What a row loop or kernel computes, by the outputs that are wanted. LOBE_VERB(NAME, name) */
+#define LOBE_VERBS(LOBE_VERB)                                                                                          \
+	LOBE_VERB(EVAL_F, eval_f)         /* f */                                                                      \
+	LOBE_VERB(EVAL_PDF, eval_pdf)     /* pdf */                                                                    \
+	LOBE_VERB(EVAL_F_PDF, eval_f_pdf) /* both */                                                                   \
+	LOBE_VERB(SAMPLE, sample)         /* wi, weight, pdf, event */                                                 \
+	LOBE_VERB(SAMPLE_WI, sample_wi)   /* wi, event */
+
+enum {
+#define LOBE_VERB(NAME, name) LOBE_VERB_##NAME,
+	LOBE_VERBS(LOBE_VERB)
+#undef LOBE_VERB
+	LOBE_VERB_COUNT
+};
+
+/* Arrays of a batch in one order, whatever the verb. */
+enum {
+	LOBE_IN_WO = 0, /* 3 */
+	LOBE_IN_WI = 3, /* 3: eval */
+	LOBE_IN_U = 3,  /* 3: sample */
+	LOBE_IN_COUNT = 6,
+
+	LOBE_OUT_F = 0,   /* 3: eval */
+	LOBE_OUT_PDF = 3, /* 1: eval */
+
+	LOBE_OUT_WI = 0,         /* 3: sample */
+	LOBE_OUT_WEIGHT = 3,     /* 3: sample */
+	LOBE_OUT_SAMPLE_PDF = 6, /* 1: sample */
+	LOBE_OUT_EVENT = 7,      /* 1: sample; uint32_t */
+	LOBE_OUT_COUNT = 8
+};
+
+/* A batch whose arguments have been checked. Array a is a host pointer (float const *, float *; uint32_t * for the
+ * event) or, in a device job, a struct _cl_mem *. An output that is not wanted is NULL. */
+typedef struct {
+	int verb; /* LOBE_VERB_* */
+	size_t count;
+	const void *material;
+	const void *in[LOBE_IN_COUNT];
+	void *out[LOBE_OUT_COUNT];
+} lobe_job;
+
+/* The arrays that a verb reads and can write, for loops over them. */
+static inline int lobe_verb_is_sample(int verb) { return verb == LOBE_VERB_SAMPLE || verb == LOBE_VERB_SAMPLE_WI; }
+
+/* One backend. Each function but close and scene_destroy sets the error message when it fails. */
+typedef struct {
+	void (*close)(lobe_device *device);
+	lobe_status (*scene_create)(lobe_scene *scene); /* sets scene->state */
+	void (*scene_destroy)(lobe_scene *scene);       /* after a successful scene_create only */
+	lobe_status (*run)(lobe_scene *scene, const lobe_job *job);       /* host arrays; returns when they are written */
+	lobe_status (*run_device)(lobe_scene *scene, const lobe_job *job); /* cl_mem arrays; NULL for a native device */
+} lobe_device_ops;
+
+/* First member of each backend's own device struct. */
+struct lobe_device {
+	const lobe_device_ops *ops;
+	char name[256];
+};
+
+struct lobe_scene {
+	lobe_device *device;
+	size_t count;    /* materials */
+	uint32_t *index; /* [count] LOBE_INDEX_* of each material */
+	uint32_t *slot;  /* [count] its place in that lobe's table */
+	struct {
+		void *params; /* lobe_<name>[count], owned; NULL when count is 0 */
+		size_t count;
+	} table[LOBE_COUNT];
+	char *options; /* OpenCL build options, owned */
+	void *state;   /* the backend's */
+};
+
+/* Size of lobe_<name> by LOBE_INDEX_*, and its name. (fields.c) */
+extern const size_t lobe_param_size[LOBE_COUNT];
+extern const char *const lobe_param_name[LOBE_COUNT];
+
+/* LOBE_INDEX_* of a kind, LOBE_INDEX_NONE of LOBE_KIND_NONE, -1 of anything else. (fields.c) */
+int lobe_index_of_kind(uint32_t kind);
+
+/* Checks every field of materials[i]; LOBE_ERROR_PARAMETER and a message that names i and the field. (fields.c) */
+lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i);
+
+/* Sets this thread's error message (printf) and returns status. (status.c) */
+lobe_status lobe_fail(lobe_status status, const char *format, ...)
+#ifdef __GNUC__
+	__attribute__((format(printf, 2, 3)))
+#endif
+	;
+
+/* Elements [0, n) of material[] grouped by lobe: order[begin[L] .. begin[L+1]) are the elements of lobe L, ascending;
+ * L up to and including LOBE_INDEX_NONE, begin has LOBE_COUNT + 2 entries. material has been checked. (sort.c) */
+void lobe_sort_by_lobe(const lobe_scene *scene, const uint32_t *material, size_t n, uint32_t *order, size_t *begin);
+
+/* Backends. lobe_native_open: threads 0 means all processors. (native.c, opencl.c) */
+lobe_status lobe_native_open(lobe_device **out, size_t threads);
+lobe_status lobe_opencl_count(size_t *count);
+lobe_status lobe_opencl_open(lobe_device **out, size_t index);
+/* lobe_device_open_cl and lobe_device_cl are implemented in opencl.c, lobe_opencl_source in opencl_source.c and
+ * lobe_opencl_options in batch.c. */
+
+#endif

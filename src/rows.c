@@ -1,0 +1,129 @@
+/* rows.c - the native loops of one lobe for one instruction set: compiled once for each pair, with
+ *	LOBE_ROW      the lobe, e.g. ggx_conductor
+ *	LOBE_ROW_ISA  the instruction set, a suffix, e.g. avx2
+ * and that instruction set's compiler options.
+ *
+ * A loop vectorises when all of it is inlined and straight-line, and when the compiler knows that outputs do not alias
+ * inputs: hence the always-inline LOBE_FN, and one noinline function per loop whose arrays are restrict parameters.
+ * tests/test_vectorised.sh reads the compilers' remarks for the lines ROW_... below. */
+#define LOBE_FN static inline __attribute__((always_inline))
+
+#include "rows.h"
+
+#define PASTE_(a, b) a##b
+#define PASTE(a, b)  PASTE_(a, b)
+#define PARAMS       PASTE(lobe_, LOBE_ROW)
+#define CALL(verb)   PASTE(PARAMS, verb)
+
+#define NOINLINE static __attribute__((noinline))
+
+/* Parameters of element i: the same for all, or by slot. */
+#define ONE  0
+#define MANY slot[i]
+
+#define INPUTS                                                                                                         \
+	const PARAMS *restrict table, const uint32_t *restrict slot, size_t n, const float *restrict ox,               \
+		const float *restrict oy, const float *restrict oz, const float *restrict ix,                          \
+		const float *restrict iy, const float *restrict iz
+#define INPUT_ARGS       table, slot, n, in[0], in[1], in[2], in[3], in[4], in[5]
+#define WO               lobe_vec3_make(ox[i], oy[i], oz[i])
+#define WI_OR_U          lobe_vec3_make(ix[i], iy[i], iz[i])
+#define F_OUTPUTS        float *restrict fr, float *restrict fg, float *restrict fb
+#define WI_OUTPUTS       float *restrict wx, float *restrict wy, float *restrict wz, uint32_t *restrict event
+#define STORE_3(x, y, z, v, a, b, c)                                                                                   \
+	do {                                                                                                           \
+		x[i] = (v).a;                                                                                          \
+		y[i] = (v).b;                                                                                          \
+		z[i] = (v).c;                                                                                          \
+	} while (0)
+
+#define ROW_EVAL_F(name, which)                                                                                        \
+	NOINLINE void name##_loop(INPUTS, F_OUTPUTS)                                                                   \
+	{                                                                                                              \
+		(void)slot;                                                                                            \
+		for (size_t i = 0; i < n; i++) {                                                                       \
+			const lobe_rgb f = CALL(_eval)(table[which], WO, WI_OR_U);                                     \
+			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
+		}                                                                                                      \
+	}                                                                                                              \
+	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
+	{                                                                                                              \
+		name##_loop(INPUT_ARGS, out[0], out[1], out[2]);                                                       \
+	}
+
+#define ROW_EVAL_PDF(name, which)                                                                                      \
+	NOINLINE void name##_loop(INPUTS, float *restrict pdf)                                                         \
+	{                                                                                                              \
+		(void)slot;                                                                                            \
+		for (size_t i = 0; i < n; i++)                                                                         \
+			pdf[i] = CALL(_pdf)(table[which], WO, WI_OR_U);                                                \
+	}                                                                                                              \
+	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
+	{                                                                                                              \
+		name##_loop(INPUT_ARGS, out[LOBE_OUT_PDF]);                                                            \
+	}
+
+#define ROW_EVAL_F_PDF(name, which)                                                                                    \
+	NOINLINE void name##_loop(INPUTS, F_OUTPUTS, float *restrict pdf)                                              \
+	{                                                                                                              \
+		(void)slot;                                                                                            \
+		for (size_t i = 0; i < n; i++) {                                                                       \
+			const lobe_rgb f = CALL(_eval)(table[which], WO, WI_OR_U);                                     \
+			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
+			pdf[i] = CALL(_pdf)(table[which], WO, WI_OR_U);                                                \
+		}                                                                                                      \
+	}                                                                                                              \
+	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
+	{                                                                                                              \
+		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_PDF]);                                    \
+	}
+
+#define ROW_SAMPLE(name, which)                                                                                        \
+	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS, F_OUTPUTS, float *restrict pdf)                                  \
+	{                                                                                                              \
+		(void)slot;                                                                                            \
+		for (size_t i = 0; i < n; i++) {                                                                       \
+			const lobe_sample s = CALL(_sample)(table[which], WO, WI_OR_U);                                \
+			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \
+			STORE_3(fr, fg, fb, s.weight, r, g, b);                                                        \
+			pdf[i] = s.pdf;                                                                                \
+			event[i] = s.event;                                                                            \
+		}                                                                                                      \
+	}                                                                                                              \
+	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
+	{                                                                                                              \
+		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT], out[3], out[4], out[5],   \
+			    out[LOBE_OUT_SAMPLE_PDF]);                                                                 \
+	}
+
+#define ROW_SAMPLE_WI(name, which)                                                                                     \
+	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS)                                                                  \
+	{                                                                                                              \
+		(void)slot;                                                                                            \
+		for (size_t i = 0; i < n; i++) {                                                                       \
+			const lobe_sample s = CALL(_sample)(table[which], WO, WI_OR_U);                                \
+			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \
+			event[i] = s.event;                                                                            \
+		}                                                                                                      \
+	}                                                                                                              \
+	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
+	{                                                                                                              \
+		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT]);                          \
+	}
+
+ROW_EVAL_F(eval_f_one, ONE)
+ROW_EVAL_PDF(eval_pdf_one, ONE)
+ROW_EVAL_F_PDF(eval_f_pdf_one, ONE)
+ROW_SAMPLE(sample_one, ONE)
+ROW_SAMPLE_WI(sample_wi_one, ONE)
+ROW_EVAL_F(eval_f_many, MANY)
+ROW_EVAL_PDF(eval_pdf_many, MANY)
+ROW_EVAL_F_PDF(eval_f_pdf_many, MANY)
+ROW_SAMPLE(sample_many, MANY)
+ROW_SAMPLE_WI(sample_wi_many, MANY)
+
+const lobe_rows PASTE(PASTE(PASTE(lobe_rows_, LOBE_ROW_ISA), _), LOBE_ROW) = {
+#define LOBE_VERB(NAME, name) {name##_one, name##_many},
+	{LOBE_VERBS(LOBE_VERB)}
+#undef LOBE_VERB
+};

@@ -1,0 +1,43 @@
+/* status.c - names of statuses and this thread's error message. */
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "internal.h"
+
+/* Room for the head of an OpenCL build log. */
+static __thread char message[4096];
+
+const char *lobe_status_string(lobe_status status)
+{
+	switch (status) {
+	case LOBE_OK:
+		return "LOBE_OK";
+	case LOBE_ERROR_ARGUMENT:
+		return "LOBE_ERROR_ARGUMENT";
+	case LOBE_ERROR_PARAMETER:
+		return "LOBE_ERROR_PARAMETER";
+	case LOBE_ERROR_DEVICE:
+		return "LOBE_ERROR_DEVICE";
+	case LOBE_ERROR_BUILD:
+		return "LOBE_ERROR_BUILD";
+	case LOBE_ERROR_MEMORY:
+		return "LOBE_ERROR_MEMORY";
+	case LOBE_ERROR_OPENCL:
+		return "LOBE_ERROR_OPENCL";
+	}
+	return "unknown status";
+}
+
+const char *lobe_error_message(void)
+{
+	return message;
+}
+
+lobe_status lobe_fail(lobe_status status, const char *format, ...)
+{
+	va_list args;
+	va_start(args, format);
+	vsnprintf(message, sizeof message, format, args);
+	va_end(args);
+	return status;
+}
