@@ -1,0 +1,25 @@
+/* inputs.h - directions and random numbers that every backend is compared on. */
+#ifndef LOBE_TESTS_INPUTS_H
+#define LOBE_TESTS_INPUTS_H
+
+#include <stddef.h>
+
+/* Arrays of a batch's inputs: wo x y z, wi x y z, u x y z. */
+typedef struct {
+	size_t count;
+	float *array[9];
+} inputs;
+
+/* count elements, freed by inputs_free. Ends the program when out of memory. */
+inputs inputs_alloc(size_t count);
+void inputs_free(inputs in);
+
+/* Elements first .. first + in.count of an endless sequence: directions over the sphere, at grazing cosines down to
+ * 1e-7, and wi near the mirror image or the straight continuation of wo, where narrow lobes are. */
+void inputs_random(inputs in, size_t first);
+
+/* All pairs of extreme directions with each other and with extreme random numbers: poles, horizon, cosines to 1e-7 on
+ * both sides, not quite unit, zero, NaN and infinite; u at 0, 2^-149, 2^-24, around 1/2 and 1 - 2^-24. */
+inputs inputs_extreme(void);
+
+#endif

@@ -1,0 +1,428 @@
+/* test_batch.c - devices, scenes and batches: what they do, and what they refuse and how they say so. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdlib.h>
+#include <string.h>
+
+#include "lobe/lobe.h"
+#include "support.h"
+#include "unity.h"
+
+enum { N = 1000 };
+
+static lobe_device *device;
+static lobe_scene *scene;
+static float in[9][N], out[13][N];
+static uint32_t material[N], event[N];
+
+void setUp(void)
+{
+	const lobe_bsdf materials[3] = {
+		lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.2f, 0.5f, 0.8f))),
+		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD),
+								     lobe_metal_k(LOBE_METAL_GOLD))),
+		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.1f, 1.5f))};
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, "native:1"));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&scene, device, materials, 3));
+	for (uint32_t i = 0; i < N; i++) {
+		float w[3];
+		test_direction(1, i, w);
+		for (int k = 0; k < 3; k++)
+			in[k][i] = w[k];
+		test_direction(2, i, w);
+		for (int k = 0; k < 3; k++) {
+			in[3 + k][i] = w[k];
+			in[6 + k][i] = test_uniform((uint32_t)(3 + k), i);
+		}
+		material[i] = test_bits(6, i) % 3;
+	}
+	memset(out, 0xee, sizeof out);
+}
+
+void tearDown(void)
+{
+	lobe_scene_destroy(scene);
+	lobe_device_close(device);
+	scene = NULL;
+	device = NULL;
+}
+
+/* A whole batch; tests spoil one thing each. */
+static lobe_batch good_batch(void)
+{
+	lobe_batch b;
+	memset(&b, 0, sizeof b);
+	b.count = N;
+	b.material = material;
+	for (int k = 0; k < 3; k++) {
+		b.wo[k] = in[k];
+		b.wi[k] = in[3 + k];
+		b.u[k] = in[6 + k];
+		b.f[k] = out[k];
+		b.sample_wi[k] = out[4 + k];
+		b.weight[k] = out[7 + k];
+	}
+	b.pdf = out[3];
+	b.sample_pdf = out[10];
+	b.event = event;
+	return b;
+}
+
+/* The call failed with status, and the message has the word in it. */
+static void assert_refused(lobe_status expected, lobe_status got, const char *word)
+{
+	TEST_ASSERT_EQUAL_STRING(lobe_status_string(expected), lobe_status_string(got));
+	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), word), lobe_error_message());
+}
+
+/* --- devices ----------------------------------------------------------------------------------------------------- */
+
+static void test_device_names(void)
+{
+	lobe_device *d;
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, "native:3"));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_device_name(d), "3 threads"));
+	lobe_device_close(d);
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, "native"));
+	TEST_ASSERT_EQUAL_STRING_LEN("native, ", lobe_device_name(d), 8);
+	lobe_device_close(d);
+	lobe_device_close(NULL);
+	TEST_ASSERT_EQUAL_STRING("", lobe_device_name(NULL));
+}
+
+static void test_device_refusals(void)
+{
+	static const char *const bad[] = {"",	    "gpu",	"native:",   "native:0", "native:1025", "native:x", "native2",
+					  "native:-1", "opencl:",	"opencl:1x", "openclx",	 "native:99999999999999999999"};
+	lobe_device *d = device;
+	size_t count = 77;
+	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+		assert_refused(LOBE_ERROR_DEVICE, lobe_device_open(&d, bad[i]), "lobe_device_open");
+		TEST_ASSERT_EQUAL_PTR(device, d);
+	}
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_open(NULL, "native"), "out");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_open(&d, NULL), "name");
+	assert_refused(LOBE_ERROR_DEVICE, lobe_device_count("cuda", &count), "cuda");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_count(NULL, &count), "backend");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_count("native", NULL), "count");
+	TEST_ASSERT_EQUAL(77, count);
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_count("native", &count));
+	TEST_ASSERT_EQUAL(1, count);
+}
+
+static void test_isa_by_name(void)
+{
+	lobe_device *d;
+	setenv("LOBE_ISA", "baseline", 1);
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, "native:1"));
+	TEST_ASSERT_EQUAL_STRING("native, baseline, 1 thread", lobe_device_name(d));
+	lobe_device_close(d);
+	setenv("LOBE_ISA", "vax", 1);
+	assert_refused(LOBE_ERROR_DEVICE, lobe_device_open(&d, "native:1"), "vax");
+	unsetenv("LOBE_ISA");
+}
+
+static void test_status_strings(void)
+{
+	for (int s = LOBE_OK; s <= LOBE_ERROR_OPENCL; s++)
+		TEST_ASSERT_EQUAL_STRING_LEN("LOBE_", lobe_status_string((lobe_status)s), 5);
+	TEST_ASSERT_NOT_NULL(lobe_status_string((lobe_status)99));
+}
+
+/* --- scenes ------------------------------------------------------------------------------------------------------ */
+
+static void test_scene_refusals(void)
+{
+	lobe_scene *s = scene;
+	lobe_bsdf m[2] = {lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0, 0, 0))),
+			  lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0, 0, 0)))};
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(NULL, device, m, 1), "out");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, NULL, m, 1), "device");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, device, NULL, 1), "materials");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, device, m, 0), "count");
+	m[1].kind = 200;
+	assert_refused(LOBE_ERROR_PARAMETER, lobe_scene_create(&s, device, m, 2), "materials[1].kind");
+	TEST_ASSERT_EQUAL_PTR(scene, s);
+}
+
+/* Each refusal names the material and the field. */
+static void refuse(lobe_bsdf m, const char *field)
+{
+	const lobe_bsdf materials[2] = {lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(1, 1, 1))), m};
+	lobe_scene *s = scene;
+	assert_refused(LOBE_ERROR_PARAMETER, lobe_scene_create(&s, device, materials, 2), field);
+	TEST_ASSERT_NOT_NULL(strstr(lobe_error_message(), "materials[1]"));
+	TEST_ASSERT_EQUAL_PTR(scene, s);
+}
+
+static void test_bad_parameters(void)
+{
+	const lobe_rgb one = lobe_rgb_make(1, 1, 1);
+	const float bad[] = {NAN, INFINITY, -INFINITY, -1.0f, 1e9f};
+	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+		refuse(lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0, bad[i], 0))), "reflectance.g");
+		refuse(lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.1f, 0.1f, lobe_rgb_make(1, 1, bad[i]), one)),
+		       "eta.b");
+		refuse(lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.1f, 0.1f, one, lobe_rgb_make(bad[i], 1, 1))),
+		       "k.r");
+		refuse(lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.1f, 0.1f, bad[i])), "eta");
+	}
+	refuse(lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(NAN, 0.1f, one, one)), "alpha_x");
+	refuse(lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.1f, NAN, 1.5f)), "alpha_y");
+	refuse(lobe_bsdf_from_ggx_dielectric(
+		       lobe_ggx_dielectric_transport(lobe_ggx_dielectric_make(0.1f, 0.1f, 1.5f), 7)),
+	       "transport");
+	/* A struct that did not come from make. */
+	lobe_bsdf zero;
+	memset(&zero, 0, sizeof zero);
+	zero.kind = LOBE_KIND_GGX_CONDUCTOR;
+	refuse(zero, "alpha_x");
+}
+
+/* make clamps alpha, and says so: these are accepted. */
+static void test_clamped_alpha(void)
+{
+	const float alpha[] = {0.0f, -3.0f, 1e-9f, 2.0f, INFINITY};
+	for (size_t i = 0; i < sizeof alpha / sizeof *alpha; i++) {
+		const lobe_bsdf m = lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(alpha[i], 0.5f, 1.5f));
+		lobe_scene *s;
+		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, &m, 1));
+		lobe_scene_destroy(s);
+		TEST_ASSERT_TRUE(m.as.ggx_dielectric.ggx.alpha_x >= LOBE_ALPHA_MIN && m.as.ggx_dielectric.ggx.alpha_x <= 1);
+	}
+	lobe_scene_destroy(NULL);
+}
+
+/* The scene keeps its own copy. */
+static void test_materials_are_copied(void)
+{
+	lobe_bsdf m = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(1, 1, 1)));
+	lobe_scene *s;
+	lobe_batch b = good_batch();
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, &m, 1));
+	memset(&m, 0xff, sizeof m);
+	b.material = NULL;
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
+	const lobe_vec3 wo = lobe_vec3_make(in[0][0], in[1][0], in[2][0]), wi = lobe_vec3_make(in[3][0], in[4][0], in[5][0]);
+	TEST_ASSERT_EQUAL_FLOAT(lobe_lambert_eval(lobe_lambert_make(lobe_rgb_make(1, 1, 1)), wo, wi).r, out[0][0]);
+	lobe_scene_destroy(s);
+}
+
+/* --- batches ----------------------------------------------------------------------------------------------------- */
+
+static lobe_status eval(const lobe_batch *b) { return lobe_scene_eval(scene, b); }
+static lobe_status sample(const lobe_batch *b) { return lobe_scene_sample(scene, b); }
+
+static void test_null_arguments(void)
+{
+	lobe_batch b = good_batch();
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval(NULL, &b), "scene");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval(scene, NULL), "batch");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample(NULL, &b), "scene");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample(scene, NULL), "batch");
+	b.wo[1] = NULL;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "wo[1]");
+	b = good_batch();
+	b.wi[2] = NULL;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "wi[2]");
+	b = good_batch();
+	b.u[0] = NULL;
+	assert_refused(LOBE_ERROR_ARGUMENT, sample(&b), "u[0]");
+	b = good_batch();
+	b.f[1] = NULL;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "f[1]");
+	b = good_batch();
+	b.f[0] = NULL;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "f[0]");
+	b = good_batch();
+	b.weight[2] = NULL;
+	assert_refused(LOBE_ERROR_ARGUMENT, sample(&b), "weight[2]");
+	b = good_batch();
+	b.f[0] = b.f[1] = b.f[2] = b.pdf = NULL;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "every output");
+	/* Refused calls wrote nothing. */
+	for (int i = 0; i < N; i++)
+		TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(out[0][i]));
+}
+
+static void test_zero_count(void)
+{
+	lobe_batch b = good_batch();
+	b.count = 0;
+	TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
+	TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
+	TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(out[0][0]));
+}
+
+static void test_absurd_count(void)
+{
+	lobe_batch b = good_batch();
+	b.count = SIZE_MAX;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "count");
+}
+
+static void test_material_out_of_range(void)
+{
+	lobe_batch b = good_batch();
+	material[N - 1] = 3;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "material[999] = 3");
+	TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(out[0][0]));
+}
+
+static void test_misaligned(void)
+{
+	lobe_batch b = good_batch();
+	b.count = 10;
+	b.wo[2] = (const float *)(const void *)((const char *)in[2] + 1);
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "wo[2]");
+	b = good_batch();
+	b.count = 10;
+	b.event = (uint32_t *)(void *)((char *)event + 2);
+	assert_refused(LOBE_ERROR_ARGUMENT, sample(&b), "event");
+}
+
+static void test_overlap(void)
+{
+	lobe_batch b = good_batch();
+	b.count = 100;
+	b.f[2] = out[1] + 99;
+	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "overlaps");
+	b.f[2] = out[1] + 100; /* behind one another is fine */
+	TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
+	b = good_batch();
+	b.sample_wi[0] = in[0]; /* in place is not */
+	assert_refused(LOBE_ERROR_ARGUMENT, sample(&b), "overlaps");
+	b = good_batch();
+	for (int k = 0; k < 3; k++)
+		b.wi[k] = b.wo[k]; /* inputs may be the same */
+	TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
+}
+
+/* A batch gives what the shading functions give, whichever outputs are asked for. */
+static void test_results_and_subsets(void)
+{
+	lobe_bsdf m[3] = {lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.2f, 0.5f, 0.8f))),
+			  lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD),
+									       lobe_metal_k(LOBE_METAL_GOLD))),
+			  lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.1f, 1.5f))};
+	for (int mask = 1; mask < 16; mask++) {
+		lobe_batch b = good_batch();
+		memset(out, 0xee, sizeof out);
+		memset(event, 0xee, sizeof event);
+		for (int k = 0; k < 3; k++) {
+			b.f[k] = mask & 1 ? out[k] : NULL;
+			b.sample_wi[k] = mask & 1 ? out[4 + k] : NULL;
+			b.weight[k] = mask & 2 ? out[7 + k] : NULL;
+		}
+		b.pdf = mask & 2 ? out[3] : NULL;
+		b.sample_pdf = mask & 4 ? out[10] : NULL;
+		b.event = mask & 8 ? event : NULL;
+		if (mask & 3)
+			TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
+		TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
+		for (int i = 0; i < N; i++) {
+			const lobe_vec3 wo = lobe_vec3_make(in[0][i], in[1][i], in[2][i]);
+			const lobe_vec3 wi = lobe_vec3_make(in[3][i], in[4][i], in[5][i]);
+			const lobe_vec3 u = lobe_vec3_make(in[6][i], in[7][i], in[8][i]);
+			const lobe_rgb f = lobe_bsdf_eval(m[material[i]], wo, wi);
+			const lobe_sample s = lobe_bsdf_sample(m[material[i]], wo, u);
+			const float expected[11] = {f.r,      f.g,      f.b,	    lobe_bsdf_pdf(m[material[i]], wo, wi),
+						    s.wi.x,   s.wi.y,   s.wi.z,	    s.weight.r,
+						    s.weight.g, s.weight.b, s.pdf};
+			const int wanted[11] = {mask & 1, mask & 1, mask & 1, mask & 2, mask & 1, mask & 1,
+						mask & 1, mask & 2, mask & 2, mask & 2, mask & 4};
+			for (int k = 0; k < 11; k++)
+				TEST_ASSERT_EQUAL_HEX32(wanted[k] ? test_float_bits(expected[k]) : 0xeeeeeeeeu,
+							test_float_bits(out[k][i]));
+			TEST_ASSERT_EQUAL_HEX32(mask & 8 ? s.event : 0xeeeeeeeeu, event[i]);
+		}
+	}
+}
+
+/* LOBE_KIND_NONE among the materials shades to nothing, and nothing else is disturbed. */
+static void test_no_lobe(void)
+{
+	lobe_bsdf m[2];
+	lobe_scene *s;
+	memset(m, 0, sizeof m);
+	m[1] = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(1, 1, 1)));
+	for (int i = 0; i < N; i++)
+		material[i] = (uint32_t)i & 1;
+	lobe_batch b = good_batch();
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, m, 2));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(s, &b));
+	for (int i = 0; i < N; i += 2) {
+		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(out[0][i]));
+		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(out[10][i]));
+		TEST_ASSERT_EQUAL_HEX32(0, event[i]);
+		TEST_ASSERT_NOT_EQUAL(0, event[i + 1]);
+	}
+	b.material = NULL;
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(s, &b));
+	for (int i = 0; i < N; i++)
+		TEST_ASSERT_EQUAL_HEX32(0, event[i]);
+	lobe_scene_destroy(s);
+}
+
+/* Random numbers at and beyond their ends, and directions that are no directions, stay in their own element. */
+static void test_elements_are_independent(void)
+{
+	static float first[13][N];
+	lobe_batch b = good_batch();
+	TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
+	memcpy(first, out, sizeof first);
+	in[0][500] = in[1][500] = in[2][500] = NAN;
+	in[6][501] = in[7][501] = in[8][501] = 0x1.fffffep-1f;
+	TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
+	for (int k = 4; k < 11; k++)
+		for (int i = 0; i < N; i++)
+			if (i < 500 || i > 501)
+				TEST_ASSERT_EQUAL_HEX32(test_float_bits(first[k][i]), test_float_bits(out[k][i]));
+	for (int k = 4; k < 11; k++)
+		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(out[k][500]));
+}
+
+/* --- OpenCL calls on a native device ----------------------------------------------------------------------------- */
+
+static void test_native_takes_no_buffers(void)
+{
+	lobe_cl_batch b;
+	memset(&b, 0, sizeof b);
+	b.count = 1;
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval_cl(scene, &b), "cl_mem");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample_cl(scene, &b), "cl_mem");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_cl(device, NULL, NULL, NULL), "lobe_device_cl");
+}
+
+static void test_source_and_options(void)
+{
+	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_source(), "lobe_ggx_conductor_eval"));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(NULL), "-cl-fp32-correctly-rounded-divide-sqrt"));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(scene), "-DLOBE_HAS_GGX_DIELECTRIC=1"));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(scene), "-DLOBE_HAS_DEFAULT=0"));
+}
+
+int main(void)
+{
+	UNITY_BEGIN();
+	RUN_TEST(test_device_names);
+	RUN_TEST(test_device_refusals);
+	RUN_TEST(test_isa_by_name);
+	RUN_TEST(test_status_strings);
+	RUN_TEST(test_scene_refusals);
+	RUN_TEST(test_bad_parameters);
+	RUN_TEST(test_clamped_alpha);
+	RUN_TEST(test_materials_are_copied);
+	RUN_TEST(test_null_arguments);
+	RUN_TEST(test_zero_count);
+	RUN_TEST(test_absurd_count);
+	RUN_TEST(test_material_out_of_range);
+	RUN_TEST(test_misaligned);
+	RUN_TEST(test_overlap);
+	RUN_TEST(test_results_and_subsets);
+	RUN_TEST(test_no_lobe);
+	RUN_TEST(test_elements_are_independent);
+	RUN_TEST(test_native_takes_no_buffers);
+	RUN_TEST(test_source_and_options);
+	return UNITY_END();
+}
