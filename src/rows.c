@@ -17,15 +17,40 @@
 
 #define NOINLINE static __attribute__((noinline))
 
-/* Parameters of element i: the same for all, or by slot. */
+/* Parameters of element i: the same for all, or by slot. They are fetched word by word from an array of words, each
+ * put where it belongs: clang would fetch a small struct the way it passes one, two floats in a register, and gcc does
+ * not see that a struct behind a pointer keeps clear of the outputs; either then gives up vectorising. */
+typedef float __attribute__((may_alias)) word;
+enum { WORDS = sizeof(PARAMS) / 4, WORDS_MAX = 32 };
+typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
+
 #define ONE  0
-#define MANY slot[i]
+#define MANY slot[i] * (size_t)WORDS
+
+#define FETCH_1(k, which)                                                                                              \
+	if ((k) < WORDS) {                                                                                             \
+		const word w = words[(which) + (k)];                                                                   \
+		memcpy((char *)&p + 4 * (k), &w, 4);                                                                   \
+	}
+#define FETCH_4(k, which)                                                                                              \
+	FETCH_1(k, which) FETCH_1(k + 1, which) FETCH_1(k + 2, which) FETCH_1(k + 3, which)
+#define FETCH(which)                                                                                                   \
+	PARAMS p;                                                                                                      \
+	FETCH_4(0, which) FETCH_4(4, which) FETCH_4(8, which) FETCH_4(12, which)                                       \
+	FETCH_4(16, which) FETCH_4(20, which) FETCH_4(24, which) FETCH_4(28, which)
+
+/* clang's cost model would leave a cheap lobe's gathers scalar on SSE2. */
+#ifdef __clang__
+#define VECTORISE _Pragma("clang loop vectorize(enable)")
+#else
+#define VECTORISE
+#endif
 
 #define INPUTS                                                                                                         \
-	const PARAMS *restrict table, const uint32_t *restrict slot, size_t n, const float *restrict ox,               \
+	const word *restrict words, const uint32_t *restrict slot, size_t n, const float *restrict ox,                 \
 		const float *restrict oy, const float *restrict oz, const float *restrict ix,                          \
 		const float *restrict iy, const float *restrict iz
-#define INPUT_ARGS       table, slot, n, in[0], in[1], in[2], in[3], in[4], in[5]
+#define INPUT_ARGS      table, slot, n, in[0], in[1], in[2], in[3], in[4], in[5]
 #define WO               lobe_vec3_make(ox[i], oy[i], oz[i])
 #define WI_OR_U          lobe_vec3_make(ix[i], iy[i], iz[i])
 #define F_OUTPUTS        float *restrict fr, float *restrict fg, float *restrict fb
@@ -41,8 +66,9 @@
 	NOINLINE void name##_loop(INPUTS, F_OUTPUTS)                                                                   \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		for (size_t i = 0; i < n; i++) {                                                                       \
-			const lobe_rgb f = CALL(_eval)(table[which], WO, WI_OR_U);                                     \
+		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+			FETCH(which)                                                                                   \
+			const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                                \
 			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
 		}                                                                                                      \
 	}                                                                                                              \
@@ -55,8 +81,10 @@
 	NOINLINE void name##_loop(INPUTS, float *restrict pdf)                                                         \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		for (size_t i = 0; i < n; i++)                                                                         \
-			pdf[i] = CALL(_pdf)(table[which], WO, WI_OR_U);                                                \
+		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+			FETCH(which)                                                                                   \
+			pdf[i] = CALL(_pdf)(p, WO, WI_OR_U);                                                           \
+		}                                                                                                      \
 	}                                                                                                              \
 	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
 	{                                                                                                              \
@@ -67,10 +95,11 @@
 	NOINLINE void name##_loop(INPUTS, F_OUTPUTS, float *restrict pdf)                                              \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		for (size_t i = 0; i < n; i++) {                                                                       \
-			const lobe_rgb f = CALL(_eval)(table[which], WO, WI_OR_U);                                     \
+		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+			FETCH(which)                                                                                   \
+			const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                                \
 			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
-			pdf[i] = CALL(_pdf)(table[which], WO, WI_OR_U);                                                \
+			pdf[i] = CALL(_pdf)(p, WO, WI_OR_U);                                                           \
 		}                                                                                                      \
 	}                                                                                                              \
 	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
@@ -82,8 +111,9 @@
 	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS, F_OUTPUTS, float *restrict pdf)                                  \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		for (size_t i = 0; i < n; i++) {                                                                       \
-			const lobe_sample s = CALL(_sample)(table[which], WO, WI_OR_U);                                \
+		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+			FETCH(which)                                                                                   \
+			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \
 			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \
 			STORE_3(fr, fg, fb, s.weight, r, g, b);                                                        \
 			pdf[i] = s.pdf;                                                                                \
@@ -92,7 +122,7 @@
 	}                                                                                                              \
 	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
 	{                                                                                                              \
-		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT], out[3], out[4], out[5],   \
+		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT], out[3], out[4], out[5],           \
 			    out[LOBE_OUT_SAMPLE_PDF]);                                                                 \
 	}
 
@@ -100,15 +130,16 @@
 	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS)                                                                  \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		for (size_t i = 0; i < n; i++) {                                                                       \
-			const lobe_sample s = CALL(_sample)(table[which], WO, WI_OR_U);                                \
+		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+			FETCH(which)                                                                                   \
+			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \
 			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \
 			event[i] = s.event;                                                                            \
 		}                                                                                                      \
 	}                                                                                                              \
 	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
 	{                                                                                                              \
-		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT]);                          \
+		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT]);                                  \
 	}
 
 ROW_EVAL_F(eval_f_one, ONE)

@@ -60,7 +60,8 @@ LOBE_FN lobe_real lobe_from_bits(lobe_uint b)
 	return x;
 }
 
-#ifdef __FP_FAST_FMAF
+/* clang has the instruction without saying so in __FP_FAST_FMAF. */
+#if defined(__FP_FAST_FMAF) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)
 
 LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c) { return fmaf(a, b, c); }
 

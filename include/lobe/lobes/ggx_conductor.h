@@ -29,24 +29,14 @@ LOBE_FN lobe_ggx_conductor lobe_ggx_conductor_make(lobe_real alpha_x, lobe_real 
 	return p;
 }
 
-/* What eval and pdf share: the half vector's length squared (o.h = |H|/2 for unit directions, which unlike the dot
- * product does not cancel when both graze), and D/4. */
-typedef struct {
-	lobe_real h2, quarter_d;
-	int above;
-} lobe_ggx_conductor_half;
-
-LOBE_FN lobe_ggx_conductor_half lobe_ggx_conductor_half_make(lobe_ggx_conductor p, lobe_vec3 wo, lobe_vec3 wi)
+/* D(h)/4 for the half vector H = wo + wi, h2 = |H|^2. */
+LOBE_FN lobe_real lobe_ggx_conductor_quarter_d(lobe_ggx_conductor p, lobe_vec3 h, lobe_real h2)
 {
-	const lobe_vec3 h = lobe_vec3_add(wo, wi);
-	lobe_ggx_conductor_half s;
-	s.h2 = lobe_dot(h, h);
-	const lobe_real x = LOBE_R(0.5) * s.h2 * lobe_ggx_inv_q(p.ggx, h);
-	s.quarter_d = p.ggx.norm * x * x;
-	s.above = (wo.z > LOBE_R(0.0)) & (wi.z > LOBE_R(0.0));
-	return s;
+	const lobe_real x = LOBE_R(0.5) * h2 * lobe_ggx_inv_q(p.ggx, h);
+	return p.ggx.norm * x * x;
 }
 
+/* Fresnel at o.h = |H|/2, which for unit directions does not cancel as the dot product does when both graze. */
 LOBE_FN lobe_rgb lobe_ggx_conductor_fresnel(lobe_ggx_conductor p, lobe_real h2)
 {
 	return lobe_fresnel_conductor_rgb(lobe_min(LOBE_R(0.5) * lobe_sqrt(h2), LOBE_R(1.0)), p.eta, p.k);
@@ -55,18 +45,24 @@ LOBE_FN lobe_rgb lobe_ggx_conductor_fresnel(lobe_ggx_conductor p, lobe_real h2)
 /* f |cos theta_i| [1/sr] */
 LOBE_FN lobe_rgb lobe_ggx_conductor_eval(lobe_ggx_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_ggx_conductor_half s = lobe_ggx_conductor_half_make(p, wo, wi);
+	const lobe_vec3 h = lobe_vec3_add(wo, wi);
+	const lobe_real h2 = lobe_dot(h, h);
+	const int above = (wo.z > LOBE_R(0.0)) & (wi.z > LOBE_R(0.0));
 	const lobe_real g = lobe_ggx_g2_over_cos(wo.z, lobe_ggx_t(p.ggx, wo), wi.z, lobe_ggx_t(p.ggx, wi));
-	const lobe_real dg = s.above ? s.quarter_d * g : LOBE_R(0.0);
-	return lobe_rgb_finite_or_zero(lobe_rgb_scale(lobe_ggx_conductor_fresnel(p, s.h2), dg));
+	const lobe_real dg = lobe_ggx_conductor_quarter_d(p, h, h2) * g;
+	const lobe_real scale = above ? dg : LOBE_R(0.0);
+	return lobe_rgb_finite_or_zero(lobe_rgb_scale(lobe_ggx_conductor_fresnel(p, h2), scale));
 }
 
 /* [1/sr] */
 LOBE_FN lobe_real lobe_ggx_conductor_pdf(lobe_ggx_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_ggx_conductor_half s = lobe_ggx_conductor_half_make(p, wo, wi);
+	const lobe_vec3 h = lobe_vec3_add(wo, wi);
+	const lobe_real quarter_d = lobe_ggx_conductor_quarter_d(p, h, lobe_dot(h, h));
+	const int above = (wo.z > LOBE_R(0.0)) & (wi.z > LOBE_R(0.0));
 	const lobe_real two_sigma = wo.z + lobe_ggx_t(p.ggx, wo);
-	return s.above ? lobe_finite_or_zero((s.quarter_d + s.quarter_d) / two_sigma) : LOBE_R(0.0);
+	const lobe_real pdf = lobe_finite_or_zero((quarter_d + quarter_d) / two_sigma);
+	return above ? pdf : LOBE_R(0.0);
 }
 
 /* Uses u.x and u.y. No sample when the facet reflects below the surface. */

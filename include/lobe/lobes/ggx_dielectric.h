@@ -122,8 +122,9 @@ LOBE_FN lobe_rgb lobe_ggx_dielectric_eval(lobe_ggx_dielectric p, lobe_vec3 wo, l
 	const lobe_ggx_dielectric_facet m = lobe_ggx_dielectric_facet_make(p, v, i);
 	const lobe_real g = lobe_ggx_dielectric_g2_over_cos(p, v, i, m.reflects);
 	const lobe_real scale = m.reflects ? LOBE_R(1.0) : v.scale;
-	const lobe_real f = m.valid ? lobe_finite_or_zero(m.prob * scale * m.density * g) : LOBE_R(0.0);
-	return lobe_rgb_make(f, f, f);
+	const lobe_real f = lobe_finite_or_zero(m.prob * scale * m.density * g);
+	const lobe_real kept = m.valid ? f : LOBE_R(0.0);
+	return lobe_rgb_make(kept, kept, kept);
 }
 
 /* [1/sr] */
@@ -133,7 +134,8 @@ LOBE_FN lobe_real lobe_ggx_dielectric_pdf(lobe_ggx_dielectric p, lobe_vec3 wo, l
 	const lobe_ggx_dielectric_facet m =
 		lobe_ggx_dielectric_facet_make(p, v, lobe_ggx_dielectric_flip(wo, wi));
 	const lobe_real two_sigma = v.o.z + v.t_o;
-	return m.valid ? lobe_finite_or_zero(m.prob * (m.density + m.density) / two_sigma) : LOBE_R(0.0);
+	const lobe_real pdf = lobe_finite_or_zero(m.prob * (m.density + m.density) / two_sigma);
+	return m.valid ? pdf : LOBE_R(0.0);
 }
 
 /* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the

@@ -24,8 +24,9 @@ LOBE_FN lobe_real lobe_lambert_pdf(lobe_lambert p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_real zero = LOBE_R(0.0);
 	const int same_side = ((wo.z > zero) & (wi.z > zero)) | ((wo.z < zero) & (wi.z < zero));
+	const lobe_real pdf = lobe_finite_or_zero(lobe_abs(wi.z) * LOBE_INV_PI);
 	(void)p;
-	return same_side ? lobe_finite_or_zero(lobe_abs(wi.z) * LOBE_INV_PI) : zero;
+	return same_side ? pdf : zero;
 }
 
 /* f |cos theta_i| [1/sr] */

@@ -1,0 +1,318 @@
+/* test_equivalence.c - every lobe, every verb: each OpenCL device, any number of threads and any instruction set give
+ * the bits of the scalar functions. Not one bit may differ. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases.h"
+#include "inputs.h"
+#include "lobe/lobe.h"
+#include "support.h"
+#include "unity.h"
+
+enum { OUTPUTS = 12, BLOCK = 1 << 20, MAX_CASES = 256 };
+
+/* Results of a batch: f, pdf, sample_wi, weight, sample_pdf, event. */
+typedef struct {
+	float *array[OUTPUTS];
+} results;
+
+static const char *const output_name[OUTPUTS] = {"f.r",  "f.g",	     "f.b",	 "pdf",	     "wi.x", "wi.y",
+						 "wi.z", "weight.r", "weight.g", "weight.b", "spdf", "event"};
+
+static results results_alloc(size_t count)
+{
+	results r;
+	for (int k = 0; k < OUTPUTS; k++) {
+		r.array[k] = malloc(count * 4);
+		TEST_ASSERT_NOT_NULL(r.array[k]);
+		memset(r.array[k], 0xee, count * 4);
+	}
+	return r;
+}
+
+static void results_free(results r)
+{
+	for (int k = 0; k < OUTPUTS; k++)
+		free(r.array[k]);
+}
+
+void setUp(void) {}
+void tearDown(void) {}
+
+/* --- the scenes: the cases of one lobe, or of all ----------------------------------------------------------------- */
+
+static lobe_bsdf materials[MAX_CASES];
+static const char *material_name[MAX_CASES];
+static size_t material_count;
+
+static void use_cases_of(lobe_uint kind)
+{
+	material_count = 0;
+	for (size_t i = 0; i < case_count() && material_count < MAX_CASES; i++)
+		if (kind == LOBE_KIND_NONE || case_at(i)->kind == kind) {
+			material_name[material_count] = case_at(i)->name;
+			materials[material_count++] = case_at(i)->bsdf;
+		}
+	TEST_ASSERT_GREATER_THAN(0, material_count);
+}
+
+/* Material of each element: blocks of a hundred or so, and singles. */
+static uint32_t *assign_materials(size_t count, uint32_t stream)
+{
+	uint32_t *m = malloc(count * sizeof *m);
+	TEST_ASSERT_NOT_NULL(m);
+	for (size_t i = 0; i < count; i++) {
+		const size_t at = i & 4096 ? i : i / 128;
+		m[i] = test_bits(stream, at) % (uint32_t)material_count;
+	}
+	return m;
+}
+
+static lobe_batch make_batch(inputs in, results out, const uint32_t *material)
+{
+	lobe_batch b;
+	memset(&b, 0, sizeof b);
+	b.count = in.count;
+	b.material = material;
+	for (int k = 0; k < 3; k++) {
+		b.wo[k] = in.array[k];
+		b.wi[k] = in.array[3 + k];
+		b.u[k] = in.array[6 + k];
+		b.f[k] = out.array[k];
+		b.sample_wi[k] = out.array[4 + k];
+		b.weight[k] = out.array[7 + k];
+	}
+	b.pdf = out.array[3];
+	b.sample_pdf = out.array[10];
+	b.event = (uint32_t *)(void *)out.array[11];
+	return b;
+}
+
+/* --- two ways to shade: scalar functions, and a device -------------------------------------------------------------- */
+
+static void shade_scalar(inputs in, results out, const uint32_t *material)
+{
+	for (size_t i = 0; i < in.count; i++) {
+		const lobe_bsdf b = materials[material ? material[i] : 0];
+		const lobe_vec3 wo = lobe_vec3_make(in.array[0][i], in.array[1][i], in.array[2][i]);
+		const lobe_vec3 wi = lobe_vec3_make(in.array[3][i], in.array[4][i], in.array[5][i]);
+		const lobe_vec3 u = lobe_vec3_make(in.array[6][i], in.array[7][i], in.array[8][i]);
+		const lobe_rgb f = lobe_bsdf_eval(b, wo, wi);
+		const lobe_sample s = lobe_bsdf_sample(b, wo, u);
+		const float values[11] = {f.r,	  f.g,	  f.b,	      lobe_bsdf_pdf(b, wo, wi), s.wi.x, s.wi.y,
+					  s.wi.z, s.weight.r, s.weight.g, s.weight.b,		s.pdf};
+		for (int k = 0; k < 11; k++)
+			out.array[k][i] = values[k];
+		memcpy(&out.array[11][i], &s.event, 4);
+	}
+}
+
+/* Both outputs of eval at once, then each alone must be the same; likewise wi and event of a sample alone. */
+static void shade_device(lobe_scene *scene, inputs in, results out, const uint32_t *material, int subsets)
+{
+	lobe_batch b = make_batch(in, out, material);
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_sample(scene, &b), lobe_error_message());
+	if (!subsets) {
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(scene, &b), lobe_error_message());
+		return;
+	}
+	for (int k = 0; k < 3; k++) {
+		b.f[k] = NULL;
+		b.weight[k] = NULL;
+	}
+	b.sample_pdf = NULL;
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(scene, &b), lobe_error_message());
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_sample(scene, &b), lobe_error_message());
+	b = make_batch(in, out, material);
+	b.pdf = NULL;
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(scene, &b), lobe_error_message());
+}
+
+/* Differing 32-bit words; prints the first few. */
+static size_t differences(inputs in, results a, results b, const uint32_t *material, const char *what)
+{
+	size_t count = 0;
+	for (int k = 0; k < OUTPUTS; k++)
+		for (size_t i = 0; i < in.count; i++) {
+			const uint32_t x = test_float_bits(a.array[k][i]), y = test_float_bits(b.array[k][i]);
+			if (x == y)
+				continue;
+			if (count++ < 3)
+				printf("%s: %s %s: %08x, scalar %08x; wo %a %a %a wi %a %a %a u %a %a %a\n", what,
+				       material_name[material ? material[i] : 0], output_name[k], y, x,
+				       (double)in.array[0][i], (double)in.array[1][i], (double)in.array[2][i],
+				       (double)in.array[3][i], (double)in.array[4][i], (double)in.array[5][i],
+				       (double)in.array[6][i], (double)in.array[7][i], (double)in.array[8][i]);
+		}
+	return count;
+}
+
+/* --- devices -------------------------------------------------------------------------------------------------------- */
+
+enum { MAX_DEVICES = 16 };
+static struct {
+	lobe_device *device;
+	char what[300];
+} devices[MAX_DEVICES];
+static int device_count;
+
+static void open_device(const char *name, const char *isa)
+{
+	lobe_device *d;
+	if (isa)
+		setenv("LOBE_ISA", isa, 1);
+	const lobe_status status = lobe_device_open(&d, name);
+	unsetenv("LOBE_ISA");
+	if (status != LOBE_OK && isa)
+		return; /* this processor has no such instructions */
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, status, lobe_error_message());
+	devices[device_count].device = d;
+	snprintf(devices[device_count].what, sizeof devices->what, "%s", lobe_device_name(d));
+	device_count++;
+}
+
+static void open_devices(void)
+{
+	size_t opencl = 0;
+	open_device("native:1", "baseline");
+	open_device("native:1", "avx2");
+	open_device("native:1", "avx512");
+	open_device("native:2", NULL);
+	open_device("native:5", NULL);
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_device_count("opencl", &opencl), lobe_error_message());
+	for (size_t i = 0; i < opencl && device_count < MAX_DEVICES; i++) {
+		char name[32];
+		snprintf(name, sizeof name, "opencl:%zu", i);
+		open_device(name, NULL);
+	}
+	if (opencl == 0)
+		TEST_IGNORE_MESSAGE("no OpenCL device: native against native alone");
+}
+
+static void close_devices(void)
+{
+	while (device_count > 0)
+		lobe_device_close(devices[--device_count].device);
+}
+
+/* The current materials on every device against the scalar functions. */
+static size_t compare_all(inputs in, const uint32_t *material, int subsets)
+{
+	results scalar = results_alloc(in.count);
+	size_t total = 0;
+	shade_scalar(in, scalar, material);
+	for (int d = 0; d < device_count; d++) {
+		results got = results_alloc(in.count);
+		lobe_scene *scene;
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK,
+					  lobe_scene_create(&scene, devices[d].device, materials, material_count),
+					  lobe_error_message());
+		shade_device(scene, in, got, material, subsets);
+		total += differences(in, scalar, got, material, devices[d].what);
+		lobe_scene_destroy(scene);
+		results_free(got);
+	}
+	results_free(scalar);
+	return total;
+}
+
+static size_t random_inputs(lobe_uint kind, size_t count, uint32_t stream)
+{
+	size_t total = 0;
+	use_cases_of(kind);
+	for (size_t first = 0; first < count; first += BLOCK) {
+		inputs in = inputs_alloc(count - first < BLOCK ? count - first : BLOCK);
+		uint32_t *material = assign_materials(in.count, stream);
+		inputs_random(in, first);
+		total += compare_all(in, material, first / BLOCK % 2 == 1);
+		free(material);
+		inputs_free(in);
+	}
+	return total;
+}
+
+/* Each case alone, as a scene of one material (the loops with constants taken out), on all extreme inputs. */
+static size_t extreme_inputs(lobe_uint kind)
+{
+	inputs in = inputs_extreme();
+	size_t total = 0, cases = 0;
+	for (size_t i = 0; i < case_count(); i++)
+		if (case_at(i)->kind == kind) {
+			materials[0] = case_at(i)->bsdf;
+			material_name[0] = case_at(i)->name;
+			material_count = 1;
+			total += compare_all(in, NULL, (int)(i & 1));
+			cases++;
+		}
+	printf("  %zu cases of %zu extreme inputs\n", cases, in.count);
+	inputs_free(in);
+	return total;
+}
+
+static void test_random_inputs(void)
+{
+	const size_t count = (size_t)4 << 20;
+#define LOBE_X(NAME, name, kind)                                                                                       \
+	printf("%s: %zu random inputs, %d devices\n", #name, count, device_count);                                     \
+	TEST_ASSERT_EQUAL_MESSAGE(0, random_inputs(kind, count, 30 + kind), #name);
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+}
+
+static void test_extreme_inputs(void)
+{
+#define LOBE_X(NAME, name, kind) TEST_ASSERT_EQUAL_MESSAGE(0, extreme_inputs(kind), #name);
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+}
+
+static void test_mixed_lobes(void)
+{
+	TEST_ASSERT_EQUAL(0, random_inputs(LOBE_KIND_NONE, 300007, 77));
+}
+
+/* Odd sizes: shorter than a vector, around blocks and chunks, primes. */
+static void test_sizes(void)
+{
+	static const size_t sizes[] = {1, 2, 3, 7, 8, 9, 31, 255, 256, 257, 1009, 8191, 8192, 8193, 16411};
+	size_t total = 0;
+	for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+		total += random_inputs(LOBE_KIND_NONE, sizes[i], 78);
+		total += random_inputs(LOBE_KIND_GGX_DIELECTRIC, sizes[i], 79);
+	}
+	TEST_ASSERT_EQUAL(0, total);
+}
+
+/* One bit turned in one output is seen. */
+static void test_notices_one_bit(void)
+{
+	inputs in = inputs_alloc(1000);
+	results a = results_alloc(in.count), b = results_alloc(in.count);
+	use_cases_of(LOBE_KIND_LAMBERT);
+	inputs_random(in, 0);
+	shade_scalar(in, a, NULL);
+	shade_scalar(in, b, NULL);
+	TEST_ASSERT_EQUAL(0, differences(in, a, b, NULL, "planted"));
+	uint32_t bits = test_float_bits(b.array[3][500]) ^ 1;
+	memcpy(&b.array[3][500], &bits, 4);
+	TEST_ASSERT_EQUAL(1, differences(in, a, b, NULL, "planted"));
+	results_free(a);
+	results_free(b);
+	inputs_free(in);
+}
+
+int main(void)
+{
+	setvbuf(stdout, NULL, _IOLBF, 0);
+	UNITY_BEGIN();
+	RUN_TEST(open_devices);
+	RUN_TEST(test_notices_one_bit);
+	RUN_TEST(test_sizes);
+	RUN_TEST(test_mixed_lobes);
+	RUN_TEST(test_extreme_inputs);
+	RUN_TEST(test_random_inputs);
+	RUN_TEST(close_devices);
+	return UNITY_END();
+}

@@ -1,0 +1,64 @@
+#!/bin/sh
+# Every native row loop is vectorised, by gcc and by clang, for every instruction set: read off the compilers' own
+# remarks. One loop that is not, for a branch or a call that somebody put into a lobe, fails.
+cd "$(dirname "$0")/.." || exit 1
+. tests/unit.sh
+out=build/tests/vectorised
+mkdir -p $out
+
+lobes=$(sed -n 's/^LOBE_X.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
+lines=$(grep -n '^ROW_' src/rows.c | cut -d: -f1)
+flags="-std=c99 -O3 $exact -fPIC -Iinclude -Isrc"
+
+# remarks COMPILER ISA-FLAGS LOBE SOURCE: the line numbers of SOURCE with a vectorised loop.
+remarks() {
+	case $1 in
+	*clang*) report="-Rpass=loop-vectorize" ;;
+	*) report="-fopt-info-vec-optimized" ;;
+	esac
+	# shellcheck disable=SC2086
+	"$1" $flags $2 $report -DLOBE_ROW="$3" -DLOBE_ROW_ISA=test -c "$4" -o $out/rows.o 2>&1 |
+		awk -F: -v file="$(basename "$4")" \
+			'$1 ~ file "$" && /vectorized loop|loop vectorized/ && !/not vectorized/ { print $2 }' | sort -un
+}
+
+# missing COMPILER ISA-FLAGS LOBE SOURCE: the ROW_ lines without one.
+missing() {
+	found=$(remarks "$@")
+	for line in $lines; do
+		echo "$found" | grep -qx "$line" || echo "line $line: $(sed -n "${line}p" src/rows.c)"
+	done
+}
+
+if [ "$(uname -m)" != x86_64 ]; then
+	skip vectorised "the instruction sets of this test are x86-64's"
+	finish
+	exit
+fi
+for compiler in gcc clang; do
+	if ! command -v $compiler >/dev/null; then
+		skip "$compiler" "no $compiler here"
+		continue
+	fi
+	for isa in "" "-mavx2 -mfma" "-mavx2 -mfma -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512"; do
+		for lobe in $lobes; do
+			name="$compiler ${isa:-baseline}: $lobe"
+			bad=$(missing $compiler "$isa" "$lobe" src/rows.c)
+			if [ -z "$bad" ]; then
+				pass "$name"
+			else
+				fail "$name" "not vectorised:"
+				echo "$bad"
+			fi
+		done
+	done
+	# The test can fail: a loop with a call to libm in it is noticed.
+	sed 's/pdf\[i\] = CALL(_pdf)(p, WO, WI_OR_U)/pdf[i] = lgammaf(ix[i])/' src/rows.c >$out/planted.c
+	bad=$(missing $compiler "-mavx2 -mfma" lambert $out/planted.c)
+	if echo "$bad" | grep -q EVAL_PDF; then
+		pass "$compiler: notices a planted call"
+	else
+		fail "$compiler: notices a planted call" "it saw every loop vectorised"
+	fi
+done
+finish
