@@ -101,7 +101,7 @@ LOBE_FN lobe_real lobe_log(lobe_real x)
 }
 
 /* Logarithm to base 2. Domain: x >= 0, subnormal numbers too; log2(+-0) = -inf, log2(inf) = inf, NaN below 0. Exact at
- * powers of two. Measured: TODO ulp at x = TODO. */
+ * powers of two. Measured: 1.60 ulp at x = 0.705300152. */
 LOBE_FN lobe_real lobe_log2(lobe_real x)
 {
 	const lobe_binary b = lobe_to_binary(x);
