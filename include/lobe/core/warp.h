@@ -14,12 +14,22 @@ typedef struct {
 	lobe_real x, y;
 } lobe_vec2;
 
+/* The largest float below 1: 1 - 2^-24. */
+#define LOBE_BELOW_ONE LOBE_R(0x1.fffffep-1)
+
 LOBE_FN lobe_vec2 lobe_vec2_make(lobe_real x, lobe_real y)
 {
 	lobe_vec2 v;
 	v.x = x;
 	v.y = y;
 	return v;
+}
+
+/* v with each coordinate in [0,1), where rounding has put it just outside. */
+LOBE_FN lobe_vec2 lobe_vec2_into_square(lobe_vec2 v)
+{
+	const lobe_real zero = LOBE_R(0.0);
+	return lobe_vec2_make(lobe_clamp(v.x, zero, LOBE_BELOW_ONE), lobe_clamp(v.y, zero, LOBE_BELOW_ONE));
 }
 
 /* A point of the unit disk as a signed radius and an angle in turns: (x, y) = r (cos, sin)(2 pi turns). */
@@ -31,7 +41,7 @@ typedef struct {
  * (Cline) so that one formula serves opposite sectors. */
 LOBE_FN lobe_disk_polar lobe_concentric_polar(lobe_vec2 u)
 {
-	const lobe_real centre = LOBE_R(0x1.fffffep-1); /* 1 - 2^-24: see the top of the file */
+	const lobe_real centre = LOBE_BELOW_ONE; /* see the top of the file */
 	const lobe_real a = lobe_fma(LOBE_R(2.0), u.x, -centre);
 	const lobe_real b = lobe_fma(LOBE_R(2.0), u.y, -centre);
 	const int wide = lobe_abs(a) > lobe_abs(b);
@@ -44,7 +54,7 @@ LOBE_FN lobe_disk_polar lobe_concentric_polar(lobe_vec2 u)
 	return p;
 }
 
-/* Uniform point of the unit disk, radius < 1. */
+/* Uniform point of the unit disk; rounding may put it 2.5e-7 outside. */
 LOBE_FN lobe_vec2 lobe_concentric_disk(lobe_vec2 u)
 {
 	const lobe_disk_polar p = lobe_concentric_polar(u);
@@ -68,7 +78,8 @@ LOBE_FN lobe_vec2 lobe_concentric_disk_inverse(lobe_vec2 d)
 	const lobe_real other = r * (LOBE_R(4.0) * LOBE_INV_PI) * lobe_atan(minor / safe);
 	const lobe_real a = wide ? r : other;
 	const lobe_real b = wide ? other : r;
-	return lobe_vec2_make(lobe_fma(LOBE_R(0.5), a, half_centre), lobe_fma(LOBE_R(0.5), b, half_centre));
+	return lobe_vec2_into_square(
+		lobe_vec2_make(lobe_fma(LOBE_R(0.5), a, half_centre), lobe_fma(LOBE_R(0.5), b, half_centre)));
 }
 
 /* Direction about +z with density cos(theta)/pi: the disk lifted to the hemisphere (Malley). z > 3e-4. */
@@ -111,7 +122,7 @@ LOBE_FN lobe_vec2 lobe_spherical_cap_inverse(lobe_vec3 w, lobe_real height)
 	const lobe_real turns = lobe_atan2(w.y, w.x) / LOBE_2PI;
 	/* 1 - z above the equator as (x^2 + y^2)/(1 + z). */
 	const lobe_real h = w.z > LOBE_R(0.0) ? s2 / (one + w.z) : one - w.z;
-	return lobe_vec2_make(turns < LOBE_R(0.0) ? turns + one : turns, h / height);
+	return lobe_vec2_into_square(lobe_vec2_make(turns < LOBE_R(0.0) ? turns + one : turns, h / height));
 }
 
 /* Direction uniform over the hemisphere z >= 0. */

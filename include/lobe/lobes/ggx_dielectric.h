@@ -150,7 +150,7 @@ LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 
 	const int reflects = u.z < fr.reflectance;
 	const int delta = (p.delta != 0u) & !reflects;
 	const lobe_vec3 mirrored = lobe_reflect(v.o, m, c);
-	const lobe_vec3 refracted = lobe_refract(v.o, m, c, v.e, fr.cos_t);
+	const lobe_vec3 refracted = lobe_refract(v.o, m, v.inv_e, fr);
 	const lobe_vec3 i = lobe_vec3_make(reflects ? mirrored.x : refracted.x, reflects ? mirrored.y : refracted.y,
 					   reflects ? mirrored.z : refracted.z);
 	const lobe_real outwards = reflects ? i.z : -i.z;
