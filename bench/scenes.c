@@ -1,0 +1,122 @@
+/* scenes.c - representative materials, verbs and devices. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "scenes.h"
+
+/* --- lobes -------------------------------------------------------------------------------------------------------- */
+
+/* A material of each lobe, material_<lobe>: all that its features cost, anisotropy above all. The table below names one
+ * for each line of lobes.def, so a lobe without one does not compile. */
+
+#if LOBE_HAS_LAMBERT
+static lobe_bsdf material_lambert(void)
+{
+	return lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.8f, 0.5f, 0.2f)));
+}
+#endif
+
+#if LOBE_HAS_GGX_CONDUCTOR
+static lobe_bsdf material_ggx_conductor(void)
+{
+	return lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.2f, lobe_metal_eta(LOBE_METAL_GOLD),
+								    lobe_metal_k(LOBE_METAL_GOLD)));
+}
+#endif
+
+#if LOBE_HAS_GGX_DIELECTRIC
+static lobe_bsdf material_ggx_dielectric(void)
+{
+	return lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.2f, 1.5f));
+}
+#endif
+
+static const struct {
+	const char *name;
+	lobe_bsdf (*material)(void);
+} lobes[BENCH_LOBES] = {
+#define LOBE_X(NAME, name, kind) {#name, material_##name},
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+
+const char *bench_lobe_name(int lobe)
+{
+	return lobe < BENCH_LOBES ? lobes[lobe].name : "all";
+}
+
+lobe_bsdf bench_lobe_material(int lobe)
+{
+	return lobes[lobe].material();
+}
+
+lobe_status bench_scene_create(lobe_scene **out, lobe_device *device, int lobe)
+{
+	lobe_bsdf material[BENCH_LOBES];
+	const int first = lobe < BENCH_LOBES ? lobe : 0;
+	const int count = lobe < BENCH_LOBES ? 1 : BENCH_LOBES;
+	for (int i = 0; i < count; i++)
+		material[i] = bench_lobe_material(first + i);
+	return lobe_scene_create(out, device, material, (size_t)count);
+}
+
+/* --- verbs -------------------------------------------------------------------------------------------------------- */
+
+const char *bench_verb_name(int verb)
+{
+	static const char *const names[BENCH_VERBS] = {"eval", "pdf", "eval+pdf", "sample", "sample_wi"};
+	return names[verb];
+}
+
+int bench_verb_samples(int verb)
+{
+	return verb >= BENCH_SAMPLE;
+}
+
+/* --- devices ------------------------------------------------------------------------------------------------------ */
+
+size_t bench_processors(void)
+{
+	const long online = sysconf(_SC_NPROCESSORS_ONLN);
+	return online < 1 ? 1 : (size_t)online;
+}
+
+static int open_one(bench_device *d, const char *label)
+{
+	const char *const number = strncmp(label, "native:", 7) == 0 ? label + 7 : NULL;
+	if (lobe_device_open(&d->device, label) != LOBE_OK) {
+		fprintf(stderr, "throughput: %s is skipped: %s\n", label, lobe_error_message());
+		return 0;
+	}
+	snprintf(d->label, sizeof d->label, "%s", label);
+	d->threads = number ? (size_t)strtoul(number, NULL, 10) : bench_processors();
+	return 1;
+}
+
+int bench_devices_open(bench_device *devices, const char *only)
+{
+	int count = 0;
+	size_t opencl = 0;
+	if (only)
+		return open_one(&devices[0], only);
+	count += open_one(&devices[count], "native:1");
+	if (bench_processors() > 1)
+		count += open_one(&devices[count], "native");
+	if (lobe_device_count("opencl", &opencl) != LOBE_OK)
+		fprintf(stderr, "throughput: no OpenCL devices: %s\n", lobe_error_message());
+	for (size_t i = 0; i < opencl && count < BENCH_DEVICES_MAX; i++) {
+		char label[32];
+		snprintf(label, sizeof label, "opencl:%zu", i);
+		count += open_one(&devices[count], label);
+	}
+	return count;
+}
+
+void bench_devices_close(bench_device *devices, int count)
+{
+	for (int i = 0; i < count; i++)
+		lobe_device_close(devices[i].device);
+}

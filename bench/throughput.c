@@ -1,0 +1,136 @@
+/* throughput.c - the benchmark of speed and size: prints three tables and writes them as CSV.
+ *
+ *	throughput.csv  every lobe by verb and device: elements per second, against a plain copy (measure.h)
+ *	build_time.csv  the build time of OpenCL programs (build_time.h)
+ *	pruning.csv     what leaving things out saves (pruning.h)
+ *
+ * Exit status: 0, 1 after a failure, 2 for a bad option. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "build_time.h"
+#include "machine.h"
+#include "measure.h"
+#include "options.h"
+#include "pruning.h"
+
+enum { IN_CACHE = 16384 /* elements: at most 56 bytes each, they fit into the second-level caches of two cores */ };
+
+/* --- the table of throughput -------------------------------------------------------------------------------------- */
+
+static void print_row(const bench_plan *plan, const bench_results *results, const bench_result *r)
+{
+	const bench_result *small =
+		plan->size_count > 1 ? bench_find(results, r->lobe, r->verb, r->device, 1) : NULL;
+	printf("%-18s %-9s %-10s %9zu %5zu %9.1f %8.1f %9.2f %6zu %8.1f", bench_lobe_name(r->lobe),
+	       bench_verb_name(r->verb), plan->devices[r->device].label, r->n, plan->runs, r->rate.median,
+	       bench_spread(&r->rate), 1e3 / r->rate.median, r->bytes, r->copy_share);
+	if (small)
+		printf(" %9.1f", small->rate.median);
+	printf("\n");
+}
+
+static void write_row(FILE *csv, const bench_plan *plan, const bench_result *r)
+{
+	fprintf(csv, "%s,%s,%s,%zu,%zu,%zu,%.3f,%.2f,%.3f,%.3f,%.4f,%zu,%.3f,%.3f,%.2f\n", bench_lobe_name(r->lobe),
+		bench_verb_name(r->verb), plan->devices[r->device].label, plan->devices[r->device].threads, r->n,
+		plan->runs, r->rate.median, bench_spread(&r->rate), r->rate.min, r->rate.max, 1e3 / r->rate.median,
+		r->bytes, 1e-3 * r->rate.median * (double)r->bytes, r->copy_rate.median, r->copy_share);
+}
+
+static int report(const bench_plan *plan, const bench_results *results, const char *path)
+{
+	FILE *csv = bench_create_file(path);
+	if (!csv)
+		return 0;
+	printf("\nThroughput: medians; spread is the interquartile range. bytes: what the verb reads and writes for\n"
+	       "an element. of copy: against memcpy of as many bytes, half read and half written, on as many threads,\n"
+	       "run in turn with it.");
+	if (plan->size_count > 1)
+		printf(" in cache: batches of %zu elements instead.", plan->sizes[1]);
+	printf("\n\n%-18s %-9s %-10s %9s %5s %9s %8s %9s %6s %8s%s\n", "lobe", "verb", "device", "elements", "runs",
+	       "median", "spread", "time", "bytes", "of copy", plan->size_count > 1 ? "  in cache" : "");
+	printf("%-18s %-9s %-10s %9s %5s %9s %8s %9s %6s %8s%s\n", "", "", "", "", "", "M/s", "%", "ns", "", "%",
+	       plan->size_count > 1 ? "       M/s" : "");
+	fputs("lobe,verb,device,threads,elements,runs,median_melements_per_s,iqr_percent,min_melements_per_s,"
+	      "max_melements_per_s,ns_per_element,bytes_per_element,gbytes_per_s,copy_melements_per_s,"
+	      "copy_share_percent\n",
+	      csv);
+	for (size_t i = 0; i < results->count; i++) {
+		const bench_result *r = &results->result[i];
+		if (r->size == 0)
+			print_row(plan, results, r);
+		write_row(csv, plan, r);
+	}
+	return fclose(csv) == 0;
+}
+
+/* --- main --------------------------------------------------------------------------------------------------------- */
+
+/* path with what follows its last '/' replaced by name. Allocated; NULL when out of memory. */
+static char *beside(const char *path, const char *name)
+{
+	const char *slash = strrchr(path, '/');
+	const size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
+	char *const joined = malloc(folder + strlen(name) + 1);
+	if (joined) {
+		memcpy(joined, path, folder);
+		strcpy(joined + folder, name);
+	}
+	return joined;
+}
+
+static bench_plan make_plan(const bench_options *o, bench_device *devices, int count)
+{
+	bench_plan plan;
+	memset(&plan, 0, sizeof plan);
+	plan.lobe = o->lobe;
+	plan.verb = o->verb;
+	plan.sizes[plan.size_count++] = o->n ? o->n : (size_t)1 << (BENCH_LOBES > 6 ? 21 : 22);
+	if (!o->n || o->quick)
+		plan.sizes[plan.size_count++] = IN_CACHE;
+	if (plan.sizes[0] == IN_CACHE)
+		plan.size_count = 1;
+	plan.least = o->n ? o->n : (size_t)1 << 20; /* 40 MB and more for the larger verbs: still far from the caches */
+	plan.runs = o->runs;
+	plan.devices = devices;
+	plan.device_count = count;
+	return plan;
+}
+
+int main(int argc, char **argv)
+{
+	bench_options o;
+	bench_device devices[BENCH_DEVICES_MAX];
+	bench_results results = {NULL, 0};
+	int ok = 1;
+	if (argc == 5 && strcmp(argv[1], "--build-child") == 0)
+		return bench_build_child(argv + 2);
+	const int status = bench_options_parse(&o, argc, argv);
+	if (status != 0)
+		return status == 2 ? 2 : 0;
+	const int count = bench_devices_open(devices, o.device);
+	if (count == 0)
+		return 2;
+	/* The library lies in build/, this program in build/bench/. */
+	char *const library = beside(argv[0], "..");
+	char *const build_csv = beside(o.csv, "build_time.csv"), *const pruning_csv = beside(o.csv, "pruning.csv");
+	const bench_plan plan = make_plan(&o, devices, count);
+	ok = library && build_csv && pruning_csv;
+	bench_print_machine(devices, count);
+	if (o.throughput || o.pruning)
+		ok = ok && bench_measure(&plan, &results);
+	if (o.throughput)
+		ok = ok && report(&plan, &results, o.csv);
+	if (o.build)
+		ok = ok && bench_build_times(argv[0], devices, count, o.lobe, o.quick ? 1 : 3, 25.0, build_csv);
+	if (o.pruning)
+		ok = ok && bench_pruning(&plan, &results, library, pruning_csv);
+	free(library);
+	free(build_csv);
+	free(pruning_csv);
+	free(results.result);
+	bench_devices_close(devices, count);
+	return ok ? 0 : 1;
+}
