@@ -12,7 +12,6 @@ WARN := -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion
 # The same bits everywhere: no fusing of a*b+c behind the source's back. The other two let loops vectorise.
 EXACT := -ffp-contract=off -fno-math-errno -fno-trapping-math
 LIB_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -fPIC -Iinclude -Isrc
-ROW_CFLAGS := $(LIB_CFLAGS) -O3
 LIBS := -lm -ldl -lpthread
 
 # --- library ----------------------------------------------------------------------------------------------------------
@@ -27,6 +26,9 @@ endif
 ISA_baseline :=
 ISA_avx2 := -mavx2 -mfma
 ISA_avx512 := -mavx2 -mfma -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512
+
+# gcc's jump threading would copy divisions into both arms of a select.
+ROW_CFLAGS := $(LIB_CFLAGS) -O3 $(shell $(CC) -fno-thread-jumps -E -x c /dev/null >/dev/null 2>&1 && echo -fno-thread-jumps)
 
 SOURCES := $(wildcard src/*.c)
 HEADERS := $(wildcard include/lobe/*.h include/lobe/*/*.h include/lobe/*/*.def src/*.h)
@@ -102,8 +104,7 @@ run:
 	@echo; echo "== material gallery on each device (build/gallery) =="
 	@$(B)/gallery
 
-TEST_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc -Itests -isystem tests/vendor/unity \
-	-DUNITY_INCLUDE_DOUBLE
+TEST_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc -Itests -isystem tests/vendor/unity
 TEST_LIBS := -lgsl -lgslcblas -lmpfr -lgmp $(LIBS)
 TEST_HEADERS := $(wildcard tests/*.h)
 TEST_MAINS := $(wildcard tests/test_*.c tests/long_*.c tests/tool_*.c)
@@ -111,7 +112,7 @@ TEST_SHARED := $(filter-out $(TEST_MAINS),$(wildcard tests/*.c))
 TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(TEST_MAINS))
 
 $(B)/tests/unity.o: tests/vendor/unity/unity.c | $(B)/tests
-	$(CC) -std=c99 $(CFLAGS) -DUNITY_INCLUDE_DOUBLE -c $< -o $@
+	$(CC) -std=c99 $(CFLAGS) -c $< -o $@
 
 # The reference build of the lobes in double precision.
 $(B)/tests/double.o: private TEST_CFLAGS += -DLOBE_DOUBLE=1
@@ -143,9 +144,9 @@ test-long:
 vectors: $(B)/tests/tool_vectors
 	$(B)/tests/tool_vectors tests/vectors
 
-BENCH := $(wildcard bench/*.c)
-$(B)/bench/throughput: $(BENCH) $(wildcard bench/*.h) $(B)/liblobe.a | $(B)/bench
-	$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(BENCH) $(B)/liblobe.a -o $@ $(LIBS)
+THROUGHPUT := $(patsubst %,bench/%.c,throughput timing scenes inputs measure machine options build_time pruning)
+$(B)/bench/throughput: $(THROUGHPUT) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
+	$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(THROUGHPUT) $(B)/liblobe.a -o $@ $(LIBS)
 
 bench:
 	@./deps.sh all

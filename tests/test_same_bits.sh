@@ -1,0 +1,63 @@
+#!/bin/sh
+# The library built by gcc and by clang, at -O0 to -O3, gives the same bits; so does each instruction set of each build.
+# (Threads and OpenCL devices are compared within one build by test_equivalence.c.)
+cd "$(dirname "$0")/.." || exit 1
+. tests/unit.sh
+out=build/tests/same_bits
+mkdir -p $out
+
+reference=$out/reference.txt
+build/tests/tool_bits native:1 >$reference 2>$out/reference.device || {
+	fail reference "tool_bits failed"
+	cat $out/reference.device
+	finish
+	exit
+}
+[ "$(wc -l <$reference)" -gt 10 ] && pass "reference: $(cat $out/reference.device)" || fail reference "too few cases"
+
+# compare NAME COMMAND...: the command prints what the reference printed.
+compare() {
+	name=$1
+	shift
+	"$@" >$out/got.txt 2>$out/got.device || {
+		if grep -q 'has no such instructions' $out/got.device; then
+			skip "$name" "this processor cannot"
+		else
+			fail "$name" "$(cat $out/got.device)"
+		fi
+		return
+	}
+	if cmp -s $reference $out/got.txt; then
+		pass "$name: $(cat $out/got.device)"
+	else
+		fail "$name" "differs in $(diff $reference $out/got.txt | grep -c '^>') of $(wc -l <$reference) cases"
+		diff $reference $out/got.txt | head -n 6
+	fi
+}
+
+# build COMPILER OPTIMISATION: tool_bits and the whole library by another compiler, apart from build/.
+build() {
+	dir=$out/$1$2
+	make -s -j2 B="$dir" CC="$1" CFLAGS="$2" "$dir/tests/tool_bits"
+}
+
+for isa in baseline avx2 avx512; do
+	compare "default build, $isa" env LOBE_ISA=$isa build/tests/tool_bits native:1
+done
+for compiler in gcc clang; do
+	if ! command -v $compiler >/dev/null; then
+		skip "$compiler" "no $compiler here"
+		continue
+	fi
+	for optimisation in -O2 -O0; do
+		check "$compiler $optimisation builds" build $compiler $optimisation
+		for isa in baseline avx2; do
+			compare "$compiler $optimisation, $isa" env LOBE_ISA=$isa $out/$compiler$optimisation/tests/tool_bits native:1
+		done
+	done
+done
+
+# The comparison can fail: a cosine off by one rounding is seen.
+sed 's/^0/1/' $reference >$out/planted.txt
+cmp -s $reference $out/planted.txt && fail "notices a difference" "" || pass "notices a difference"
+finish

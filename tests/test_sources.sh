@@ -1,0 +1,100 @@
+#!/bin/sh
+# What the sources promise: no warning from gcc and clang, C++17, one lobe by itself, no libm call in a row loop, nothing
+# linked but libc, lists complete.
+cd "$(dirname "$0")/.." || exit 1
+. tests/unit.sh
+out=build/tests/sources
+mkdir -p $out
+lobes=$(sed -n 's/^LOBE_X.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
+
+# all_sources COMPILER: every C file of the library, and the examples that need nothing else.
+all_sources() {
+	for file in src/*.c build/gen/opencl_source.c cl/embed.c examples/minimal.c examples/batch.c; do
+		extra=
+		[ "$file" != src/rows.c ] || extra="-DLOBE_ROW=ggx_dielectric -DLOBE_ROW_ISA=test"
+		# shellcheck disable=SC2086
+		"$1" $warnings $exact -O2 -fPIC -Iinclude -Isrc -DLOBE_X86 $extra -c "$file" -o $out/object.o || return 1
+	done
+}
+
+cplusplus() {
+	printf '#include "lobe/lobe.h"\nint main() { return lobe_status_string(LOBE_OK) == nullptr; }\n' >$out/all.cpp
+	"$1" -std=c++17 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Werror -Iinclude -c $out/all.cpp -o $out/all.o &&
+		"$1" $out/all.o build/liblobe.a -o $out/all -lm -ldl -lpthread && $out/all
+}
+
+# one_lobe COMPILER LOBE: its header by itself, and in single and double precision.
+one_lobe() {
+	printf '#include "lobe/lobes/%s.h"\nlobe_%s p;\nint main(void) { return 0; }\n' "$2" "$2" >$out/one.c
+	for double in 0 1; do
+		# shellcheck disable=SC2086
+		"$1" $warnings -O2 -Iinclude -DLOBE_DOUBLE=$double $out/one.c -o $out/one -lm || return 1
+	done
+}
+
+# every_header COMPILER: each header is complete by itself, but for the parts of core/real.h.
+every_header() {
+	for header in include/lobe/*.h include/lobe/core/*.h include/lobe/microfacet/*.h include/lobe/lobes/*.h; do
+		! head -n 1 "$header" | grep -q 'included by real.h' || continue
+		# shellcheck disable=SC2086
+		printf '#include "%s"\ntypedef int something;\n' "${header#include/}" | "$1" $warnings -Iinclude -x c -c - -o $out/header.o || return 1
+	done
+}
+
+for compiler in gcc clang; do
+	if ! command -v $compiler >/dev/null; then
+		skip "$compiler" "no $compiler here"
+		continue
+	fi
+	check "$compiler: library without a warning" all_sources $compiler
+	check "$compiler: each header by itself" every_header $compiler
+	for lobe in $lobes; do
+		check "$compiler: $lobe by itself" one_lobe $compiler "$lobe"
+	done
+done
+for compiler in g++ clang++; do
+	if command -v $compiler >/dev/null; then
+		check "$compiler: headers as C++17" cplusplus $compiler
+	else
+		skip "$compiler" "no $compiler here"
+	fi
+done
+
+no_calls() { ! nm -u build/obj/rows_*.o | grep -vE '^$|\.o:$|_GLOBAL_OFFSET_TABLE_|__stack_chk_fail' | grep .; }
+check "row loops call nothing" no_calls
+
+# The shared library needs libc and its parts alone.
+needs_only_libc() { ! readelf -d build/liblobe.so | grep NEEDED | grep -vE 'lib(c|m|dl|pthread)\.so|ld-linux'; }
+check "the library links with libc alone" needs_only_libc
+
+# No compiler is asked for outside backend/.
+no_ifdefs() { ! grep -rnE '#\s*(if|ifdef|ifndef|elif).*(__GNUC__|__clang__|__OPENCL|_MSC_VER|__cplusplus)' include/lobe/core include/lobe/microfacet include/lobe/lobes include/lobe/bsdf.h include/lobe/shading.h; }
+check "no compiler switch outside backend/" no_ifdefs
+
+# Each header in lobes/ stands in lobes.def, lobes.h and config.h.
+listed() {
+	for header in include/lobe/lobes/*.h; do
+		name=$(basename "$header" .h)
+		[ "$name" != lobes ] || continue
+		upper=$(echo "$name" | tr a-z A-Z)
+		grep -q "^LOBE_X($upper, $name, [0-9]*)" include/lobe/lobes/lobes.def &&
+			grep -q "\"$name.h\"" include/lobe/lobes/lobes.h &&
+			grep -q "define LOBE_HAS_$upper LOBE_HAS_DEFAULT" include/lobe/config.h || {
+			echo "$name is not listed everywhere"
+			return 1
+		}
+	done
+}
+check "every lobe is in every list" listed
+
+# README's two programs are the ones that build: see examples/.
+installs() {
+	rm -rf $out/root
+	make -s install DESTDIR="$PWD/$out/root" PREFIX=/usr || return 1
+	printf '#include <lobe/lobe.h>\nint main(void) { return lobe_metal_find("gold") != LOBE_METAL_GOLD; }\n' >$out/user.c
+	flags=$(PKG_CONFIG_PATH=$out/root/usr/lib/pkgconfig pkg-config --define-variable=prefix="$PWD/$out/root/usr" --cflags --libs lobe) || return 1
+	# shellcheck disable=SC2086
+	$CC $out/user.c $flags -o $out/user && LD_LIBRARY_PATH=$out/root/usr/lib $out/user
+}
+check "make install, pkg-config, link and run" installs
+finish
