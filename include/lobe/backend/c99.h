@@ -91,7 +91,9 @@ LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c)
 	const uint64_t too_far = inexact & (((err_bits ^ bits) & sign) >> 63);
 	bits = (bits - too_far) | inexact;
 	memcpy(&odd, &bits, sizeof odd);
-	return (lobe_real)odd;
+	/* gcc 12 at -O2 drops the rounding of a (float) that is used as a double again where it finds two side by side.
+	 * The bits or-ed in are always 0, which it cannot know. */
+	return lobe_from_bits(lobe_to_bits((lobe_real)odd) | (lobe_uint)(nan & inexact));
 }
 
 #endif

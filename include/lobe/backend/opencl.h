@@ -15,7 +15,16 @@ typedef long lobe_int64;
 
 #define LOBE_R(x) x##f
 #define LOBE_REAL_MAX 0x1.fffffep+127f
+
+/* Where the compiler is clang for x86-64 (PoCL) a struct of floats would travel as <2 x float>, and what is not inlined
+ * stays a call: either stops its loop vectoriser. */
+#ifndef LOBE_FN
+#if defined(__clang__) && defined(__x86_64__)
+#define LOBE_FN static inline __attribute__((always_inline, regcall))
+#else
 #define LOBE_FN static inline
+#endif
+#endif
 
 LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c) { return fma(a, b, c); }
 LOBE_FN lobe_real lobe_sqrt(lobe_real x) { return sqrt(x); }

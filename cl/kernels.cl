@@ -1,0 +1,135 @@
+/* kernels.cl - loops over shading.h; compiled after it, in the same program.
+ *
+ * For every lobe and every verb (LOBE_VERBS in src/internal.h) there are three kernels, by how an element finds its
+ * parameters:
+ *
+ *	lobe_kernel_<lobe>_<verb>_one	table[0] for every element
+ *	lobe_kernel_<lobe>_<verb>_many	table[slot[material[element]]]
+ *	lobe_kernel_<lobe>_<verb>_mixed	the same, for the elements that order[] lists: those of this lobe
+ *
+ * Each runs the indices [first, last), LOBE_RUN of them in one work-item. On a GPU that is 1, so that adjacent
+ * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor it is
+ * many and the groups hold one work-item: then the compiler sees an ordinary loop and vectorises it, as it does the
+ * native ones. (PoCL 3.1 would rather not: left to loop over work-items itself, it first packs the three colours of one
+ * element into a vector, and gives up on every body with a guard in it. That is 5 to 20 times slower.)
+ *
+ * The loop's body has no branch. In "many" a material without a lobe (slot LOBE_NO_SLOT) or out of range shades with
+ * table[0] and the result is replaced by 0.
+ *
+ * src/opencl_launch.c sets the arguments in the order in which they stand here. */
+
+#ifndef LOBE_RUN
+#define LOBE_RUN 1
+#endif
+
+#define LOBE_NO_SLOT 0xFFFFFFFFu
+
+/* The loop of one work-item over its share of [first, last). */
+#define LOBE_FOR(i)                                                                                                    \
+	const ulong begin = first + get_global_id(0) * (ulong)LOBE_RUN;                                                \
+	const ulong end = min(begin + (ulong)LOBE_RUN, last);                                                          \
+	for (ulong i = begin; i < end; i++)
+
+#define LOBE_INPUT(a) __global const float *restrict a##_x, __global const float *restrict a##_y, \
+		      __global const float *restrict a##_z
+#define LOBE_OUTPUT(a, x, y, z) __global float *restrict a##_##x, __global float *restrict a##_##y, \
+				__global float *restrict a##_##z
+#define LOBE_LOAD(a) lobe_vec3_make(a##_x[e], a##_y[e], a##_z[e])
+#define LOBE_STORE(to, value) to[e] = ok ? (value) : 0.0f
+
+/* --- verbs: arrays and body. e: element; p: its parameters; ok: whether it has any. --- */
+
+#define LOBE_ARRAYS_eval_f LOBE_INPUT(wo), LOBE_INPUT(wi), LOBE_OUTPUT(f, r, g, b)
+#define LOBE_ARRAYS_eval_pdf LOBE_INPUT(wo), LOBE_INPUT(wi), __global float *restrict pdf
+#define LOBE_ARRAYS_eval_f_pdf LOBE_ARRAYS_eval_f, __global float *restrict pdf
+#define LOBE_ARRAYS_sample LOBE_INPUT(wo), LOBE_INPUT(u), LOBE_OUTPUT(wi, x, y, z), LOBE_OUTPUT(weight, r, g, b), \
+		__global float *restrict pdf, __global uint *restrict event
+#define LOBE_ARRAYS_sample_wi LOBE_INPUT(wo), LOBE_INPUT(u), LOBE_OUTPUT(wi, x, y, z), __global uint *restrict event
+
+#define LOBE_BODY_eval_f(lobe)                                                                                         \
+	const lobe_rgb f = lobe_##lobe##_eval(p, LOBE_LOAD(wo), LOBE_LOAD(wi));                                        \
+	LOBE_STORE(f_r, f.r);                                                                                          \
+	LOBE_STORE(f_g, f.g);                                                                                          \
+	LOBE_STORE(f_b, f.b);
+
+#define LOBE_BODY_eval_pdf(lobe)                                                                                       \
+	const lobe_real density = lobe_##lobe##_pdf(p, LOBE_LOAD(wo), LOBE_LOAD(wi));                                  \
+	LOBE_STORE(pdf, density);
+
+#define LOBE_BODY_eval_f_pdf(lobe) LOBE_BODY_eval_f(lobe) LOBE_BODY_eval_pdf(lobe)
+
+#define LOBE_BODY_sample_wi(lobe)                                                                                      \
+	const lobe_sample s = lobe_##lobe##_sample(p, LOBE_LOAD(wo), LOBE_LOAD(u));                                    \
+	LOBE_STORE(wi_x, s.wi.x);                                                                                      \
+	LOBE_STORE(wi_y, s.wi.y);                                                                                      \
+	LOBE_STORE(wi_z, s.wi.z);                                                                                      \
+	event[e] = ok ? s.event : 0u;
+
+#define LOBE_BODY_sample(lobe)                                                                                         \
+	LOBE_BODY_sample_wi(lobe)                                                                                      \
+	LOBE_STORE(weight_r, s.weight.r);                                                                              \
+	LOBE_STORE(weight_g, s.weight.g);                                                                              \
+	LOBE_STORE(weight_b, s.weight.b);                                                                              \
+	LOBE_STORE(pdf, s.pdf);
+
+/* --- kernels --- */
+
+#define LOBE_KERNELS(lobe, verb)                                                                                       \
+	__kernel void lobe_kernel_##lobe##_##verb##_one(ulong first, ulong last,                                       \
+							__global const lobe_##lobe *restrict table,                    \
+							LOBE_ARRAYS_##verb)                                            \
+	{                                                                                                              \
+		LOBE_FOR(e) {                                                                                          \
+			const bool ok = true;                                                                          \
+			const lobe_##lobe p = table[0];                                                                \
+			LOBE_BODY_##verb(lobe)                                                                         \
+		}                                                                                                      \
+	}                                                                                                              \
+	__kernel void lobe_kernel_##lobe##_##verb##_many(                                                              \
+		ulong first, ulong last, __global const lobe_##lobe *restrict table,                                   \
+		__global const uint *restrict slot, uint slot_count, __global const uint *restrict material,           \
+		LOBE_ARRAYS_##verb)                                                                                    \
+	{                                                                                                              \
+		LOBE_FOR(e) {                                                                                          \
+			const uint m = material[e];                                                                    \
+			const uint place = slot[m < slot_count ? m : 0u];                                              \
+			const bool ok = (m < slot_count) & (place != LOBE_NO_SLOT);                                    \
+			const lobe_##lobe p = table[ok ? place : 0u];                                                  \
+			LOBE_BODY_##verb(lobe)                                                                         \
+		}                                                                                                      \
+	}                                                                                                              \
+	__kernel void lobe_kernel_##lobe##_##verb##_mixed(                                                             \
+		ulong first, ulong last, __global const lobe_##lobe *restrict table,                                   \
+		__global const uint *restrict slot, __global const uint *restrict material,                            \
+		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
+	{                                                                                                              \
+		LOBE_FOR(i) {                                                                                          \
+			const ulong e = base + order[i];                                                               \
+			const bool ok = true;                                                                          \
+			const lobe_##lobe p = table[slot[material[e]]];                                                \
+			LOBE_BODY_##verb(lobe)                                                                         \
+		}                                                                                                      \
+	}
+
+#define LOBE_X(NAME, lobe, kind)                                                                                       \
+	LOBE_KERNELS(lobe, eval_f)                                                                                     \
+	LOBE_KERNELS(lobe, eval_pdf)                                                                                   \
+	LOBE_KERNELS(lobe, eval_f_pdf)                                                                                 \
+	LOBE_KERNELS(lobe, sample)                                                                                     \
+	LOBE_KERNELS(lobe, sample_wi)
+#include "../include/lobe/lobes/lobes.def"
+#undef LOBE_X
+
+/* Elements whose material is LOBE_KIND_NONE: 0, whose bits are the same for every type. */
+__kernel void lobe_kernel_zero(ulong first, ulong last, __global uint *restrict out)
+{
+	LOBE_FOR(e)
+		out[e] = 0u;
+}
+
+__kernel void lobe_kernel_zero_mixed(ulong first, ulong last, __global const uint *restrict order, ulong base,
+				     __global uint *restrict out)
+{
+	LOBE_FOR(i)
+		out[base + order[i]] = 0u;
+}

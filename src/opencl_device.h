@@ -1,0 +1,109 @@
+/* opencl_device.h - what the parts of the OpenCL backend share: opencl.c (devices), opencl_program.c (scenes and their
+ * programs), opencl_run.c (batches: arrays to and from the device), opencl_launch.c (batches: kernels). */
+#ifndef LOBE_OPENCL_DEVICE_H
+#define LOBE_OPENCL_DEVICE_H
+
+#include <pthread.h>
+
+#include "internal.h"
+#include "opencl_api.h"
+
+/* How an element finds its parameters, the last part of a kernel's name (cl/kernels.cl). */
+enum { LOBE_CL_ONE, LOBE_CL_MANY, LOBE_CL_MIXED, LOBE_CL_HOW_COUNT };
+
+/* In place of a slot, for a material of LOBE_KIND_NONE. The same number stands in cl/kernels.cl. */
+#define LOBE_CL_NO_SLOT 0xFFFFFFFFu
+
+/* A kernel and its local size; made when it is first needed. */
+typedef struct {
+	cl_kernel kernel;
+	size_t local;
+} lobe_cl_kernel;
+
+/* A program, kept by its device for every scene of the same options. */
+typedef struct lobe_cl_program {
+	struct lobe_cl_program *next;
+	cl_program program;
+	lobe_cl_kernel shade[LOBE_COUNT][LOBE_VERB_COUNT][LOBE_CL_HOW_COUNT];
+	lobe_cl_kernel zero, zero_mixed;
+	char options[];
+} lobe_cl_program;
+
+/* Device memory that is kept from call to call and only grows. */
+typedef struct {
+	cl_mem mem;
+	size_t size;
+} lobe_cl_buffer;
+
+typedef struct {
+	lobe_device base;
+	const lobe_cl_functions *cl;
+	cl_context context;
+	cl_device_id id;
+	cl_command_queue queue;
+	int unified;      /* shares its memory with the host: batches need no copies */
+	size_t run;       /* elements in a work-item, LOBE_RUN of cl/kernels.cl */
+	size_t local;     /* work-items in a group */
+	size_t max_count; /* elements of 4 bytes in a buffer */
+
+	pthread_mutex_t lock; /* held by every call that uses what is below, the kernels' arguments above all */
+	lobe_cl_program *programs;
+	lobe_cl_buffer in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material, order;
+} lobe_cl_device;
+
+/* scene->state */
+typedef struct {
+	lobe_cl_program *program;
+	cl_mem table[LOBE_COUNT]; /* of each lobe that the scene has */
+	cl_mem slot;              /* scene->slot, with LOBE_CL_NO_SLOT */
+	int lobe_count;           /* lobes that the scene has */
+	int last_lobe;            /* one of them */
+} lobe_cl_scene;
+
+/* A batch whose arrays are on the device. Outputs that nobody wants are scratch here, not NULL. */
+typedef struct {
+	lobe_cl_device *device;
+	const lobe_scene *scene;
+	int verb;
+	cl_mem in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material;
+	int wanted[LOBE_OUT_COUNT];
+} lobe_cl_shading;
+
+static inline size_t lobe_cl_smaller(size_t a, size_t b)
+{
+	return a < b ? a : b;
+}
+
+/* opencl_program.c */
+lobe_status lobe_cl_scene_create(lobe_scene *scene);
+void lobe_cl_scene_destroy(lobe_scene *scene);
+void lobe_cl_programs_release(lobe_cl_device *device);
+
+/* The kernel of a lobe and verb, or lobe < 0: zero (LOBE_CL_ONE) or zero_mixed (LOBE_CL_MIXED). */
+lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program, int lobe, int verb, int how,
+			       lobe_cl_kernel *out);
+
+/* opencl_launch.c */
+
+/* Whether output o (LOBE_OUT_*) is an argument of the verb's kernels. */
+int lobe_cl_verb_has_output(int verb, int o);
+
+/* Makes room for count elements of 4 bytes; the contents are lost when the buffer grows. */
+lobe_status lobe_cl_grow(lobe_cl_device *device, lobe_cl_buffer *buffer, size_t count);
+void lobe_cl_buffers_release(lobe_cl_device *device);
+
+/* Fills in the outputs of the verb that nobody wants: its kernels write them all the same, to memory that nobody reads.
+ */
+lobe_status lobe_cl_add_scratch(lobe_cl_shading *b, size_t count);
+
+/* Enqueues the kernels. host_material: b->material on the host; needed only if the scene has several lobes. */
+lobe_status lobe_cl_enqueue(const lobe_cl_shading *b, const uint32_t *host_material, size_t count);
+
+/* opencl_run.c */
+lobe_status lobe_cl_run(lobe_scene *scene, const lobe_job *job);
+lobe_status lobe_cl_run_device(lobe_scene *scene, const lobe_job *job);
+
+/* The kernels, generated from cl/kernels.cl. */
+const char *lobe_opencl_kernels(void);
+
+#endif

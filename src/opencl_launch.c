@@ -1,0 +1,248 @@
+/* opencl_launch.c - the kernels of an OpenCL batch whose arrays are on the device. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "opencl_device.h"
+
+/* Elements in one launch. */
+#ifndef LOBE_CL_LAUNCH_MAX
+#define LOBE_CL_LAUNCH_MAX ((size_t)1 << 30)
+#endif
+
+int lobe_cl_verb_has_output(int verb, int o)
+{
+	switch (verb) {
+	case LOBE_VERB_EVAL_F:
+		return o < LOBE_OUT_PDF;
+	case LOBE_VERB_EVAL_PDF:
+		return o == LOBE_OUT_PDF;
+	case LOBE_VERB_EVAL_F_PDF:
+		return o <= LOBE_OUT_PDF;
+	case LOBE_VERB_SAMPLE_WI:
+		return o < LOBE_OUT_WEIGHT || o == LOBE_OUT_EVENT;
+	default:
+		return 1;
+	}
+}
+
+/* --- kept buffers --- */
+
+lobe_status lobe_cl_grow(lobe_cl_device *device, lobe_cl_buffer *buffer, size_t count)
+{
+	const size_t size = count * 4;
+	cl_int error = CL_SUCCESS;
+	cl_mem mem;
+	if (buffer->size >= size)
+		return LOBE_OK;
+	mem = device->cl->clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &error);
+	if (!mem)
+		return lobe_cl_fail("clCreateBuffer", error);
+	if (buffer->mem)
+		device->cl->clReleaseMemObject(buffer->mem);
+	buffer->mem = mem;
+	buffer->size = size;
+	return LOBE_OK;
+}
+
+void lobe_cl_buffers_release(lobe_cl_device *device)
+{
+	lobe_cl_buffer *all[LOBE_IN_COUNT + LOBE_OUT_COUNT + 2];
+	size_t n = 0, i;
+	for (i = 0; i < LOBE_IN_COUNT; i++)
+		all[n++] = &device->in[i];
+	for (i = 0; i < LOBE_OUT_COUNT; i++)
+		all[n++] = &device->out[i];
+	all[n++] = &device->material;
+	all[n++] = &device->order;
+	for (i = 0; i < n; i++) {
+		if (all[i]->mem)
+			device->cl->clReleaseMemObject(all[i]->mem);
+	}
+}
+
+/* The arguments of a kernel, set one after another. The first error stays. */
+typedef struct {
+	lobe_cl_device *device;
+	cl_kernel kernel;
+	cl_uint next;
+	cl_int error;
+} arguments;
+
+static void put(arguments *a, const void *value, size_t size)
+{
+	if (a->error == CL_SUCCESS)
+		a->error = a->device->cl->clSetKernelArg(a->kernel, a->next++, size, value);
+}
+
+static void put_mem(arguments *a, cl_mem mem)
+{
+	put(a, &mem, sizeof mem);
+}
+
+static void put_ulong(arguments *a, size_t value)
+{
+	const cl_ulong x = value;
+	put(a, &x, sizeof x);
+}
+
+/* Enqueues the indices [first, last). Arguments 0 and 1 are set here, the others have been. */
+static lobe_status launch(arguments *a, size_t local, size_t first, size_t last)
+{
+	const lobe_cl_functions *const cl = a->device->cl;
+	while (first < last) {
+		const size_t count = lobe_cl_smaller(last - first, LOBE_CL_LAUNCH_MAX);
+		const size_t share = a->device->run * local;
+		const size_t global = (count + share - 1) / share * local;
+		cl_int error;
+		a->next = 0;
+		put_ulong(a, first);
+		put_ulong(a, first + count);
+		if (a->error != CL_SUCCESS)
+			return lobe_cl_fail("clSetKernelArg", a->error);
+		error =
+		    cl->clEnqueueNDRangeKernel(a->device->queue, a->kernel, 1, NULL, &global, &local, 0, NULL, NULL);
+		if (error != CL_SUCCESS)
+			return lobe_cl_fail("clEnqueueNDRangeKernel", error);
+		first += count;
+	}
+	return LOBE_OK;
+}
+
+/* The elements of one lobe. first, last: elements, or places in order in the mixed case. */
+static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t first, size_t last, size_t base)
+{
+	const lobe_cl_scene *const state = b->scene->state;
+	const cl_uint slot_count = (cl_uint)b->scene->count;
+	lobe_cl_kernel kernel;
+	arguments a;
+	lobe_status status;
+	int i;
+	if (first == last)
+		return LOBE_OK;
+	status = lobe_cl_kernel_get(b->device, state->program, lobe, b->verb, how, &kernel);
+	if (status != LOBE_OK)
+		return status;
+	a.device = b->device;
+	a.kernel = kernel.kernel;
+	a.next = 2;
+	a.error = CL_SUCCESS;
+	put_mem(&a, state->table[lobe]);
+	if (how != LOBE_CL_ONE)
+		put_mem(&a, state->slot);
+	if (how == LOBE_CL_MANY)
+		put(&a, &slot_count, sizeof slot_count);
+	if (how != LOBE_CL_ONE)
+		put_mem(&a, b->material);
+	if (how == LOBE_CL_MIXED) {
+		put_mem(&a, b->device->order.mem);
+		put_ulong(&a, base);
+	}
+	for (i = 0; i < LOBE_IN_COUNT; i++)
+		put_mem(&a, b->in[i]);
+	for (i = 0; i < LOBE_OUT_COUNT; i++) {
+		if (lobe_cl_verb_has_output(b->verb, i))
+			put_mem(&a, b->out[i]);
+	}
+	return launch(&a, kernel.local, first, last);
+}
+
+/* 0 to every wanted output, for elements of LOBE_KIND_NONE. */
+static lobe_status zero(const lobe_cl_shading *b, int how, size_t first, size_t last, size_t base)
+{
+	const lobe_cl_scene *const state = b->scene->state;
+	lobe_cl_kernel kernel;
+	lobe_status status;
+	int i;
+	if (first == last)
+		return LOBE_OK;
+	status = lobe_cl_kernel_get(b->device, state->program, -1, 0, how, &kernel);
+	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
+		arguments a;
+		if (!b->wanted[i])
+			continue;
+		a.device = b->device;
+		a.kernel = kernel.kernel;
+		a.next = 2;
+		a.error = CL_SUCCESS;
+		if (how == LOBE_CL_MIXED) {
+			put_mem(&a, b->device->order.mem);
+			put_ulong(&a, base);
+		}
+		put_mem(&a, b->out[i]);
+		status = launch(&a, kernel.local, first, last);
+	}
+	return status;
+}
+
+/* Sorts elements [base, base + count) into device->order; begin as in lobe_sort_by_lobe. */
+static lobe_status sort(const lobe_cl_shading *b, const uint32_t *material, size_t base, size_t count, size_t *begin)
+{
+	lobe_cl_device *const device = b->device;
+	const lobe_cl_functions *const cl = device->cl;
+	cl_int error = CL_SUCCESS;
+	uint32_t *order;
+	const lobe_status status = lobe_cl_grow(device, &device->order, count);
+	if (status != LOBE_OK)
+		return status;
+	order = cl->clEnqueueMapBuffer(device->queue, device->order.mem, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0,
+				       count * 4, 0, NULL, NULL, &error);
+	if (!order)
+		return lobe_cl_fail("clEnqueueMapBuffer", error);
+	lobe_sort_by_lobe(b->scene, material + base, count, order, begin);
+	error = cl->clEnqueueUnmapMemObject(device->queue, device->order.mem, order, 0, NULL, NULL);
+	if (error == CL_SUCCESS)
+		return LOBE_OK;
+	/* It may still be mapped: the next batch gets a new one. */
+	cl->clReleaseMemObject(device->order.mem);
+	device->order.mem = NULL;
+	device->order.size = 0;
+	return lobe_cl_fail("clEnqueueUnmapMemObject", error);
+}
+
+/* Elements of several lobes: each lobe in a launch of its own. material: a host copy of b->material. */
+static lobe_status shade_mixed(const lobe_cl_shading *b, const uint32_t *material, size_t count)
+{
+	const size_t limit = lobe_cl_smaller(LOBE_CL_LAUNCH_MAX, b->device->max_count);
+	size_t begin[LOBE_COUNT + 2];
+	lobe_status status = LOBE_OK;
+	size_t base = 0;
+	int lobe;
+	while (base < count && status == LOBE_OK) {
+		const size_t n = lobe_cl_smaller(count - base, limit);
+		status = sort(b, material, base, n, begin);
+		for (lobe = 0; lobe < LOBE_COUNT && status == LOBE_OK; lobe++) {
+			if (begin[lobe + 1] - begin[lobe] == n)
+				status = shade(b, lobe, LOBE_CL_MANY, base, base + n, 0);
+			else
+				status = shade(b, lobe, LOBE_CL_MIXED, begin[lobe], begin[lobe + 1], base);
+		}
+		if (status == LOBE_OK)
+			status = zero(b, LOBE_CL_MIXED, begin[LOBE_INDEX_NONE], begin[LOBE_INDEX_NONE + 1], base);
+		base += n;
+	}
+	return status;
+}
+
+lobe_status lobe_cl_enqueue(const lobe_cl_shading *b, const uint32_t *host_material, size_t count)
+{
+	const lobe_cl_scene *const state = b->scene->state;
+	if (state->lobe_count == 0 || (!b->material && b->scene->index[0] == LOBE_INDEX_NONE))
+		return zero(b, LOBE_CL_ONE, 0, count, 0);
+	if (!b->material)
+		return shade(b, (int)b->scene->index[0], LOBE_CL_ONE, 0, count, 0);
+	if (state->lobe_count == 1)
+		return shade(b, state->last_lobe, LOBE_CL_MANY, 0, count, 0);
+	return shade_mixed(b, host_material, count);
+}
+
+lobe_status lobe_cl_add_scratch(lobe_cl_shading *b, size_t count)
+{
+	lobe_status status = LOBE_OK;
+	int i;
+	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
+		if (b->wanted[i] || !lobe_cl_verb_has_output(b->verb, i))
+			continue;
+		status = lobe_cl_grow(b->device, &b->device->out[i], count);
+		b->out[i] = b->device->out[i].mem;
+	}
+	return status;
+}

@@ -1,0 +1,303 @@
+/* opencl_run.c - OpenCL batches: arrays to the device, kernels, results back. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "opencl_device.h"
+
+/* Host arrays go through in rounds of so many elements: what one buffer can hold, or, where device memory is separate,
+ * so that the kept buffers stay small. */
+#ifndef LOBE_CL_WRAP_MAX
+#define LOBE_CL_WRAP_MAX ((size_t)1 << 30)
+#endif
+#ifndef LOBE_CL_COPY_MAX
+#define LOBE_CL_COPY_MAX ((size_t)1 << 22)
+#endif
+
+/* An array's name in lobe_batch, for messages. */
+static const char *input_name(int verb, int i)
+{
+	static const char *const eval[] = {"wo[0]", "wo[1]", "wo[2]", "wi[0]", "wi[1]", "wi[2]"};
+	static const char *const sample[] = {"wo[0]", "wo[1]", "wo[2]", "u[0]", "u[1]", "u[2]"};
+	return lobe_verb_is_sample(verb) ? sample[i] : eval[i];
+}
+
+static const char *output_name(int verb, int o)
+{
+	static const char *const eval[] = {"f[0]", "f[1]", "f[2]", "pdf"};
+	static const char *const sample[] = {"sample_wi[0]", "sample_wi[1]", "sample_wi[2]", "weight[0]",
+					     "weight[1]",    "weight[2]",    "sample_pdf",   "event"};
+	return lobe_verb_is_sample(verb) ? sample[o] : eval[o];
+}
+
+/* --- batches of host arrays --- */
+
+/* Elements [first, first + count) of a job's array. */
+static void *at(const void *array, size_t first)
+{
+	return (void *)((const char *)array + 4 * first);
+}
+
+/* The host's memory as a buffer, without a copy. */
+static lobe_status wrap(lobe_cl_device *device, cl_bitfield access, void *array, size_t count, cl_mem *out)
+{
+	cl_int error = CL_SUCCESS;
+	*out = device->cl->clCreateBuffer(device->context, access | CL_MEM_USE_HOST_PTR, 4 * count, array, &error);
+	return *out ? LOBE_OK : lobe_cl_fail("clCreateBuffer", error);
+}
+
+static lobe_status copy_in(lobe_cl_device *device, lobe_cl_buffer *buffer, const void *array, size_t count, cl_mem *out)
+{
+	cl_int error;
+	const lobe_status status = lobe_cl_grow(device, buffer, count);
+	if (status != LOBE_OK)
+		return status;
+	*out = buffer->mem;
+	error =
+	    device->cl->clEnqueueWriteBuffer(device->queue, buffer->mem, CL_FALSE, 0, 4 * count, array, 0, NULL, NULL);
+	return error == CL_SUCCESS ? LOBE_OK : lobe_cl_fail("clEnqueueWriteBuffer", error);
+}
+
+enum { INPUTS = LOBE_IN_COUNT + 1 }; /* and the materials */
+
+/* Where each input of a round of host arrays lies on the device. */
+typedef struct {
+	void *array[INPUTS]; /* NULL: not there */
+	cl_mem mem[INPUTS];
+	cl_mem wrapped[INPUTS]; /* those of them to release */
+} inputs;
+
+/* Buffers over the same host memory must not overlap, and a batch may give one array twice: the second time it gets the
+ * first one's buffer, and an array that overlaps another one in part is copied. */
+static lobe_status place_input(lobe_cl_device *device, inputs *in, int i, size_t count)
+{
+	lobe_cl_buffer *const kept = i < LOBE_IN_COUNT ? &device->in[i] : &device->material;
+	const uintptr_t begin = (uintptr_t)in->array[i];
+	int overlaps = 0, k;
+	lobe_status status;
+	for (k = 0; k < i; k++) {
+		const uintptr_t other = (uintptr_t)in->array[k];
+		if (in->array[k] && other == begin) {
+			in->mem[i] = in->mem[k];
+			return LOBE_OK;
+		}
+		overlaps |= in->array[k] && other < begin + 4 * count && begin < other + 4 * count;
+	}
+	if (!device->unified || overlaps)
+		return copy_in(device, kept, in->array[i], count, &in->mem[i]);
+	status = wrap(device, CL_MEM_READ_ONLY, in->array[i], count, &in->wrapped[i]);
+	in->mem[i] = in->wrapped[i];
+	return status;
+}
+
+/* The results, into wrapped memory: once a buffer has been mapped, the array behind it holds the latest bits. */
+static lobe_status map_output(lobe_cl_device *device, cl_mem mem, size_t count)
+{
+	cl_int error = CL_SUCCESS;
+	void *const p = device->cl->clEnqueueMapBuffer(device->queue, mem, CL_FALSE, CL_MAP_READ, 0, 4 * count, 0, NULL,
+						       NULL, &error);
+	if (!p)
+		return lobe_cl_fail("clEnqueueMapBuffer", error);
+	error = device->cl->clEnqueueUnmapMemObject(device->queue, mem, p, 0, NULL, NULL);
+	return error == CL_SUCCESS ? LOBE_OK : lobe_cl_fail("clEnqueueUnmapMemObject", error);
+}
+
+static lobe_status read_output(lobe_cl_device *device, cl_mem mem, void *array, size_t count)
+{
+	const cl_int error =
+	    device->cl->clEnqueueReadBuffer(device->queue, mem, CL_FALSE, 0, 4 * count, array, 0, NULL, NULL);
+	return error == CL_SUCCESS ? LOBE_OK : lobe_cl_fail("clEnqueueReadBuffer", error);
+}
+
+/* Enqueues the whole of elements [first, first + count). wrapped: output buffers to release afterwards. */
+static lobe_status enqueue_host(lobe_cl_shading *b, inputs *in, cl_mem *wrapped, const lobe_job *job, size_t first,
+				size_t count)
+{
+	lobe_cl_device *const device = b->device;
+	lobe_status status = LOBE_OK;
+	int i;
+	for (i = 0; i < LOBE_IN_COUNT; i++)
+		in->array[i] = at(job->in[i], first);
+	in->array[LOBE_IN_COUNT] = job->material ? at(job->material, first) : NULL;
+	for (i = 0; i < INPUTS && status == LOBE_OK; i++) {
+		if (in->array[i])
+			status = place_input(device, in, i, count);
+	}
+	memcpy(b->in, in->mem, sizeof b->in);
+	b->material = in->mem[LOBE_IN_COUNT];
+	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
+		if (!b->wanted[i])
+			continue;
+		if (device->unified) {
+			status = wrap(device, CL_MEM_WRITE_ONLY, at(job->out[i], first), count, &wrapped[i]);
+			b->out[i] = wrapped[i];
+		} else {
+			status = lobe_cl_grow(device, &device->out[i], count);
+			b->out[i] = device->out[i].mem;
+		}
+	}
+	if (status == LOBE_OK)
+		status = lobe_cl_add_scratch(b, count);
+	if (status == LOBE_OK)
+		status = lobe_cl_enqueue(b, in->array[LOBE_IN_COUNT], count);
+	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
+		if (b->wanted[i])
+			status = device->unified ? map_output(device, b->out[i], count)
+						 : read_output(device, b->out[i], at(job->out[i], first), count);
+	}
+	return status;
+}
+
+/* The same, to its end. */
+static lobe_status run_host(lobe_cl_shading *b, const lobe_job *job, size_t first, size_t count)
+{
+	const lobe_cl_functions *const cl = b->device->cl;
+	inputs in = {{NULL}, {NULL}, {NULL}};
+	cl_mem wrapped[LOBE_OUT_COUNT] = {NULL};
+	int i;
+	lobe_status status = enqueue_host(b, &in, wrapped, job, first, count);
+	/* After a failure too: what has been enqueued uses the caller's arrays. */
+	const cl_int error = cl->clFinish(b->device->queue);
+	if (status == LOBE_OK && error != CL_SUCCESS)
+		status = lobe_cl_fail("clFinish", error);
+	for (i = 0; i < INPUTS; i++) {
+		if (in.wrapped[i])
+			cl->clReleaseMemObject(in.wrapped[i]);
+	}
+	for (i = 0; i < LOBE_OUT_COUNT; i++) {
+		if (wrapped[i])
+			cl->clReleaseMemObject(wrapped[i]);
+	}
+	return status;
+}
+
+static void start_batch(lobe_cl_shading *b, const lobe_scene *scene, const lobe_job *job)
+{
+	int i;
+	memset(b, 0, sizeof *b);
+	b->device = (lobe_cl_device *)scene->device;
+	b->scene = scene;
+	b->verb = job->verb;
+	for (i = 0; i < LOBE_OUT_COUNT; i++)
+		b->wanted[i] = lobe_cl_verb_has_output(job->verb, i) && job->out[i];
+}
+
+lobe_status lobe_cl_run(lobe_scene *scene, const lobe_job *job)
+{
+	lobe_cl_device *const device = (lobe_cl_device *)scene->device;
+	const size_t limit = lobe_cl_smaller(device->unified ? LOBE_CL_WRAP_MAX : LOBE_CL_COPY_MAX, device->max_count);
+	lobe_status status = LOBE_OK;
+	size_t first = 0;
+	lobe_cl_shading b;
+	pthread_mutex_lock(&device->lock);
+	start_batch(&b, scene, job);
+	while (first < job->count && status == LOBE_OK) {
+		const size_t count = lobe_cl_smaller(job->count - first, limit);
+		status = run_host(&b, job, first, count);
+		first += count;
+	}
+	pthread_mutex_unlock(&device->lock);
+	return status;
+}
+
+/* --- batches of device buffers --- */
+
+/* That mem, the field of that name, holds count elements and belongs to the device's context. */
+static lobe_status check_buffer(const lobe_cl_device *device, cl_mem mem, const char *name, size_t count)
+{
+	size_t size = 0;
+	cl_context context = NULL;
+	cl_int error = device->cl->clGetMemObjectInfo(mem, CL_MEM_SIZE, sizeof size, &size, NULL);
+	if (error == CL_SUCCESS)
+		error = device->cl->clGetMemObjectInfo(mem, CL_MEM_CONTEXT, sizeof context, &context, NULL);
+	if (error == CL_INVALID_MEM_OBJECT)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "batch->%s is not an OpenCL buffer", name);
+	if (error != CL_SUCCESS)
+		return lobe_cl_fail("clGetMemObjectInfo", error);
+	if (context != device->context)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "batch->%s belongs to another context than the device", name);
+	if (size / 4 < count)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "batch->%s holds %lu bytes, too few for %lu elements", name,
+				 (unsigned long)size, (unsigned long)count);
+	return LOBE_OK;
+}
+
+static lobe_status take_buffers(lobe_cl_shading *b, const lobe_job *job)
+{
+	lobe_status status = LOBE_OK;
+	int i;
+	for (i = 0; i < LOBE_IN_COUNT && status == LOBE_OK; i++) {
+		b->in[i] = (cl_mem)(void *)at(job->in[i], 0);
+		status = check_buffer(b->device, b->in[i], input_name(b->verb, i), job->count);
+	}
+	if (job->material && status == LOBE_OK) {
+		b->material = (cl_mem)(void *)at(job->material, 0);
+		status = check_buffer(b->device, b->material, "material", job->count);
+	}
+	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
+		if (b->wanted[i]) {
+			b->out[i] = (cl_mem)job->out[i];
+			status = check_buffer(b->device, b->out[i], output_name(b->verb, i), job->count);
+		}
+	}
+	return status;
+}
+
+/* The materials as a host array, the caller's to free, each checked to be one of the scene's. */
+static lobe_status read_materials(const lobe_cl_shading *b, size_t count, uint32_t **out)
+{
+	uint32_t *const material = count <= SIZE_MAX / 4 ? malloc(4 * count) : NULL;
+	cl_int error;
+	size_t i;
+	if (!material)
+		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
+	error = b->device->cl->clEnqueueReadBuffer(b->device->queue, b->material, CL_TRUE, 0, 4 * count, material, 0,
+						   NULL, NULL);
+	if (error != CL_SUCCESS) {
+		free(material);
+		return lobe_cl_fail("clEnqueueReadBuffer", error);
+	}
+	for (i = 0; i < count && material[i] < b->scene->count; i++)
+		;
+	if (i < count) {
+		const lobe_status status =
+		    lobe_fail(LOBE_ERROR_ARGUMENT, "batch->material[%lu] is %lu, but the scene has %lu materials",
+			      (unsigned long)i, (unsigned long)material[i], (unsigned long)b->scene->count);
+		free(material);
+		return status;
+	}
+	*out = material;
+	return LOBE_OK;
+}
+
+static lobe_status run_buffers(lobe_cl_shading *b, const lobe_job *job)
+{
+	const lobe_cl_scene *const state = b->scene->state;
+	uint32_t *material = NULL;
+	cl_int error;
+	lobe_status status = take_buffers(b, job);
+	if (status == LOBE_OK)
+		status = lobe_cl_add_scratch(b, job->count);
+	if (status == LOBE_OK && b->material && state->lobe_count > 1)
+		status = read_materials(b, job->count, &material);
+	if (status == LOBE_OK)
+		status = lobe_cl_enqueue(b, material, job->count);
+	free(material);
+	if (status != LOBE_OK)
+		return status;
+	error = b->device->cl->clFlush(b->device->queue);
+	return error == CL_SUCCESS ? LOBE_OK : lobe_cl_fail("clFlush", error);
+}
+
+lobe_status lobe_cl_run_device(lobe_scene *scene, const lobe_job *job)
+{
+	lobe_cl_device *const device = (lobe_cl_device *)scene->device;
+	lobe_status status;
+	lobe_cl_shading b;
+	pthread_mutex_lock(&device->lock);
+	start_batch(&b, scene, job);
+	status = run_buffers(&b, job);
+	pthread_mutex_unlock(&device->lock);
+	return status;
+}
