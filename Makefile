@@ -82,10 +82,12 @@ $(B)/batch: examples/batch.c $(B)/liblobe.a
 $(B)/own_kernel: examples/own_kernel.c $(B)/liblobe.a
 	$(CC) $(EXAMPLE_CFLAGS) $< $(B)/liblobe.a -o $@ -lOpenCL $(LIBS)
 
+# The gallery traces rays on the host and runs where it is built: there lobe_fma can be one instruction. Same bits.
+NATIVE := $(shell $(CC) -march=native -E -x c /dev/null >/dev/null 2>&1 && echo -march=native)
 GALLERY := $(wildcard examples/gallery/*.c)
 $(B)/gallery: $(GALLERY) $(wildcard examples/gallery/*.h) $(B)/liblobe.a
-	$(CC) $(EXAMPLE_CFLAGS) -Iexamples/gallery $(GALLERY) $(B)/liblobe.a -o $@ \
-		$$(pkg-config --cflags OpenEXR libpng) -lOpenEXRCore $$(pkg-config --libs libpng) $(LIBS)
+	$(CC) $(EXAMPLE_CFLAGS) $(NATIVE) -Iexamples/gallery $(GALLERY) $(B)/liblobe.a -o $@ \
+		$$(pkg-config --cflags OpenEXR libpng) -lOpenEXRCore -lOpenEXR $$(pkg-config --libs libpng) $(LIBS)
 
 # --- demo, tests, benchmarks: each installs what it lacks, then builds on all processors --------------------------------
 
