@@ -471,9 +471,54 @@ static void test_frame_tangent(void)
 	TEST_ASSERT_TRUE(f.b.x == -1.0f && f.b.y == 0.0f && f.b.z == 0.0f);
 }
 
+/* --- chains of fma in scalar code --------------------------------------------------------------------------------- */
+
+/* A point moved along a ray, and the direction from c to it: what a renderer does with the vectors. Not inlined, so that
+ * the compiler meets the components side by side, as in the function where the fault was found. */
+__attribute__((noinline)) static lobe_vec3 chained(float d, lobe_vec3 along, lobe_vec3 o, lobe_vec3 c)
+{
+	const lobe_vec3 p = lobe_vec3_fma(d, along, o);
+	return lobe_vec3_add(c, lobe_normalize(lobe_vec3_fma(-1.0f, c, p)));
+}
+
+/* A float that has been in memory, so that it is one. */
+static float rounded(float x)
+{
+	volatile float memory = x;
+	return memory;
+}
+
+static lobe_vec3 rounded_vec3(lobe_vec3 v)
+{
+	return lobe_vec3_make(rounded(v.x), rounded(v.y), rounded(v.z));
+}
+
+static lobe_vec3 chained_by_steps(float d, lobe_vec3 along, lobe_vec3 o, lobe_vec3 c)
+{
+	const lobe_vec3 p = rounded_vec3(lobe_vec3_fma(d, along, o));
+	const lobe_vec3 v = rounded_vec3(lobe_vec3_fma(-1.0f, c, p));
+	const float length = rounded(sqrtf(rounded(lobe_dot(v, v))));
+	return lobe_vec3_add(c, rounded_vec3(lobe_vec3_scale(v, rounded(1.0f / length))));
+}
+
+/* gcc 12 at -O2 dropped roundings between the emulated fma of neighbouring components; see backend/c99.h. */
+static void test_fma_chains_keep_their_roundings(void)
+{
+	for (uint64_t i = 0; i < 200000; i++) {
+		float x[10];
+		for (uint32_t k = 0; k < 10; k++)
+			x[k] = 8.0f * test_uniform(40 + k, i) - 4.0f;
+		const lobe_vec3 along = lobe_vec3_make(x[1], x[2], x[3]), o = lobe_vec3_make(x[4], x[5], x[6]);
+		const lobe_vec3 c = lobe_vec3_make(x[7], x[8], x[9]);
+		const lobe_vec3 a = chained(x[0], along, o, c), b = chained_by_steps(x[0], along, o, c);
+		TEST_ASSERT_TRUE(a.x == b.x && a.y == b.y && a.z == b.z);
+	}
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
+	RUN_TEST(test_fma_chains_keep_their_roundings);
 	RUN_TEST(test_fma_random_bits);
 	RUN_TEST(test_fma_near_ties);
 	RUN_TEST(test_fma_special);
