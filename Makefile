@@ -66,7 +66,7 @@ $(B)/liblobe.a: $(OBJECTS)
 	$(AR) rcs $@ $^
 
 $(B)/liblobe.so: $(OBJECTS)
-	$(CC) -shared -Wl,-soname,liblobe.so.0 $^ $(LIBS) -o $@
+	$(CC) $(CFLAGS) -shared -Wl,-soname,liblobe.so.0 $^ $(LIBS) -o $@
 
 # --- examples ---------------------------------------------------------------------------------------------------------
 
@@ -126,7 +126,7 @@ $(B)/tests/libtest.a: $(patsubst tests/%.c,$(B)/tests/%.o,$(TEST_SHARED)) $(B)/t
 	$(AR) rcs $@ $^
 
 $(B)/tests/%: $(B)/tests/%.o $(B)/tests/libtest.a $(B)/liblobe.a
-	$(CC) $< $(B)/tests/libtest.a $(B)/liblobe.a -o $@ $(TEST_LIBS)
+	$(CC) $(CFLAGS) $< $(B)/tests/libtest.a $(B)/liblobe.a -o $@ $(TEST_LIBS)
 
 .SECONDARY:
 

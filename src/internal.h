@@ -98,10 +98,12 @@ int lobe_index_of_kind(uint32_t kind);
 /* Checks every field of materials[i]; LOBE_ERROR_PARAMETER and a message that names i and the field. (fields.c) */
 lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i);
 
-/* Sets this thread's error message (printf) and returns status. (status.c) */
-lobe_status lobe_fail(lobe_status status, const char *format, ...)
+/* lobe_fail(status, format, ...): sets this thread's error message (printf) and is status. A macro, so that a reader and
+ * an analyser see that it is not LOBE_OK. (status.c) */
+#define lobe_fail(status, ...) (lobe_set_error_message(__VA_ARGS__), (status))
+void lobe_set_error_message(const char *format, ...)
 #ifdef __GNUC__
-	__attribute__((format(printf, 2, 3)))
+	__attribute__((format(printf, 1, 2)))
 #endif
 	;
 

@@ -252,28 +252,29 @@ static void native_close(lobe_device *base)
 
 static const lobe_device_ops native_ops = {native_close, native_scene_create, native_scene_destroy, native_run, NULL};
 
-/* The widest instruction set that runs here, or the one that LOBE_ISA names. */
-static lobe_status choose_isa(isa *chosen)
+/* The widest instruction set that runs here, or the one that LOBE_ISA names; its place in list, or -1 and a message. */
+static int choose_isa(const isa *list)
 {
-	isa list[ISA_COUNT];
 	const char *asked = getenv("LOBE_ISA");
-	list_isas(list);
-	for (int i = 0; i < ISA_COUNT; i++)
-		if (asked ? strcmp(asked, list[i].name) == 0 : list[i].runs_here) {
-			*chosen = list[i];
-			return list[i].runs_here ? LOBE_OK
-						 : lobe_fail(LOBE_ERROR_DEVICE,
-							     "LOBE_ISA=%s: this processor has no such instructions", asked);
-		}
-	return lobe_fail(LOBE_ERROR_DEVICE, "LOBE_ISA=%s: this library was not built for it", asked);
+	for (int i = 0; i < ISA_COUNT; i++) {
+		if (asked ? strcmp(asked, list[i].name) != 0 : !list[i].runs_here)
+			continue;
+		if (list[i].runs_here)
+			return i;
+		lobe_set_error_message("LOBE_ISA=%s: this processor has no such instructions", asked);
+		return -1;
+	}
+	lobe_set_error_message("LOBE_ISA=%s: this library was not built for it", asked);
+	return -1;
 }
 
 lobe_status lobe_native_open(lobe_device **out, size_t threads)
 {
-	isa chosen;
-	const lobe_status status = choose_isa(&chosen);
-	if (status != LOBE_OK)
-		return status;
+	isa list[ISA_COUNT];
+	list_isas(list);
+	const int chosen = choose_isa(list);
+	if (chosen < 0)
+		return LOBE_ERROR_DEVICE;
 	if (threads == 0) {
 		const long online = sysconf(_SC_NPROCESSORS_ONLN);
 		threads = online < 1 ? 1 : (online > 1024 ? 1024 : (size_t)online);
@@ -282,7 +283,7 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 	if (!device)
 		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_device_open: out of memory");
 	device->base.ops = &native_ops;
-	device->isa = chosen;
+	device->isa = list[chosen];
 	device->threads = threads;
 	pthread_mutex_init(&device->lock, NULL);
 	device->scratch = calloc(threads, sizeof *device->scratch);
@@ -291,7 +292,7 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 		native_close(&device->base);
 		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_device_open: no memory or threads for %zu threads", threads);
 	}
-	snprintf(device->base.name, sizeof device->base.name, "native, %s, %zu thread%s", chosen.name, threads,
+	snprintf(device->base.name, sizeof device->base.name, "native, %s, %zu thread%s", list[chosen].name, threads,
 		 threads == 1 ? "" : "s");
 	*out = &device->base;
 	return LOBE_OK;

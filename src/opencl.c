@@ -33,7 +33,7 @@ static lobe_status list_platform(const lobe_cl_functions *cl, cl_platform_id pla
 		return LOBE_OK;
 	if (error != CL_SUCCESS)
 		return lobe_cl_fail("clGetDeviceIDs", error);
-	ids = malloc(n * sizeof *ids);
+	ids = calloc(n, sizeof *ids);
 	longer = realloc(*list, (*count + n) * sizeof **list);
 	if (longer)
 		*list = longer;
@@ -63,7 +63,7 @@ static lobe_status list_devices(const lobe_cl_functions *cl, entry **list, size_
 		return LOBE_OK;
 	if (error != CL_SUCCESS)
 		return lobe_cl_fail("clGetPlatformIDs", error);
-	platforms = malloc(n * sizeof *platforms);
+	platforms = calloc(n, sizeof *platforms);
 	if (!platforms)
 		return out_of_memory();
 	error = cl->clGetPlatformIDs(n, platforms, NULL);

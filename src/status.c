@@ -33,11 +33,10 @@ const char *lobe_error_message(void)
 	return message;
 }
 
-lobe_status lobe_fail(lobe_status status, const char *format, ...)
+void lobe_set_error_message(const char *format, ...)
 {
 	va_list args;
 	va_start(args, format);
 	vsnprintf(message, sizeof message, format, args);
 	va_end(args);
-	return status;
 }

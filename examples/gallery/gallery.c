@@ -132,17 +132,18 @@ static size_t differing_pixels(const struct image *a, const struct image *b)
 }
 
 /* Brings every pixel to `until` samples on e's device; label NULL: quietly. */
-static int run(struct film *film, struct trace_setup *setup, const struct entry *e, const char *label, uint32_t until,
+static int run(struct film *film, const struct trace_setup *common, const struct entry *e, const char *label, uint32_t until,
 	       struct trace_stats *stats)
 {
 	struct progress progress;
 	char message[512];
 	struct trace_stats own = {0, 0, 0.0};
+	struct trace_setup setup = *common;
 	progress_start(&progress, label, (uint64_t)film->width * (uint64_t)film->height * (until - film->samples));
-	setup->materials = e->materials;
-	setup->progress = label ? progress_show : NULL;
-	setup->context = &progress;
-	if (trace(film, setup, until, &own, message, sizeof message) != 0)
+	setup.materials = e->materials;
+	setup.progress = label ? progress_show : NULL;
+	setup.context = &progress;
+	if (trace(film, &setup, until, &own, message, sizeof message) != 0)
 		return complain(e->name, message);
 	stats->samples += own.samples;
 	stats->queries += own.queries;

@@ -86,6 +86,17 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_make(lobe_real c)
 	return a;
 }
 
+/* From the square of the cosine, where that is known first: the root is then not on the way to all the rest. */
+LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
+{
+	lobe_fresnel_angle a;
+	a.c = lobe_sqrt(c2);
+	a.c2 = c2;
+	a.s2 = LOBE_R(1.0) - c2;
+	a.s4 = a.s2 * a.s2;
+	return a;
+}
+
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000].
  *
@@ -118,11 +129,15 @@ LOBE_FN lobe_real lobe_fresnel_conductor(lobe_real c, lobe_real n, lobe_real k)
 	return lobe_fresnel_conductor_at(lobe_fresnel_angle_make(c), n, k);
 }
 
-LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
+LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle a, lobe_rgb n, lobe_rgb k)
 {
-	const lobe_fresnel_angle a = lobe_fresnel_angle_make(c);
 	return lobe_rgb_make(lobe_fresnel_conductor_at(a, n.r, k.r), lobe_fresnel_conductor_at(a, n.g, k.g),
 			     lobe_fresnel_conductor_at(a, n.b, k.b));
+}
+
+LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
+{
+	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_make(c), n, k);
 }
 
 /* Schlick 1994: f0 + (1 - f0)(1 - c)^5. f0: reflectance at normal incidence, in [0, 1]. Against the exact dielectric the

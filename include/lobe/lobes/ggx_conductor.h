@@ -39,7 +39,8 @@ LOBE_FN lobe_real lobe_ggx_conductor_quarter_d(lobe_ggx_conductor p, lobe_vec3 h
 /* Fresnel at o.h = |H|/2, which for unit directions does not cancel as the dot product does when both graze. */
 LOBE_FN lobe_rgb lobe_ggx_conductor_fresnel(lobe_ggx_conductor p, lobe_real h2)
 {
-	return lobe_fresnel_conductor_rgb(lobe_min(LOBE_R(0.5) * lobe_sqrt(h2), LOBE_R(1.0)), p.eta, p.k);
+	const lobe_real c2 = lobe_min(LOBE_R(0.25) * h2, LOBE_R(1.0));
+	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_from_cos2(c2), p.eta, p.k);
 }
 
 /* f |cos theta_i| [1/sr] */
