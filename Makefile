@@ -27,8 +27,10 @@ ISA_baseline :=
 ISA_avx2 := -mavx2 -mfma
 ISA_avx512 := -mavx2 -mfma -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512
 
-# gcc's jump threading would copy divisions into both arms of a select.
-ROW_CFLAGS := $(LIB_CFLAGS) -O3 $(shell $(CC) -fno-thread-jumps -E -x c /dev/null >/dev/null 2>&1 && echo -fno-thread-jumps)
+# For gcc: jump threading would copy divisions into both arms of a select, and the loops are long chains that gain from
+# scheduling before registers are given out.
+ROW_CFLAGS := $(LIB_CFLAGS) -O3 $(foreach f,-fno-thread-jumps -fschedule-insns -fsched-pressure,\
+	$(shell $(CC) -Werror $(f) -E -x c /dev/null >/dev/null 2>&1 && echo $(f)))
 
 SOURCES := $(wildcard src/*.c)
 HEADERS := $(wildcard include/lobe/*.h include/lobe/*/*.h include/lobe/*/*.def src/*.h)

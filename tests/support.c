@@ -17,6 +17,15 @@ float test_uniform(uint32_t stream, uint64_t i)
 	return (float)(test_bits(stream, i) >> 8) * 0x1p-24f;
 }
 
+void test_u3(uint32_t stream, uint64_t i, float u[3])
+{
+	const philox4x32_ctr_t counter = {{(uint32_t)i, (uint32_t)(i >> 32), stream, 1}};
+	const philox4x32_key_t key = {{0x6c6f6265u, 0}};
+	const philox4x32_ctr_t r = philox4x32(counter, key);
+	for (int k = 0; k < 3; k++)
+		u[k] = (float)(r.v[k] >> 8) * 0x1p-24f;
+}
+
 void test_direction(uint32_t stream, uint64_t i, float w[3])
 {
 	const double z = 2.0 * ((double)test_bits(stream, 2 * i) + 0.5) * 0x1p-32 - 1.0;

@@ -11,6 +11,9 @@ uint32_t test_bits(uint32_t stream, uint64_t i);
 /* Uniform in [0, 1), a multiple of 2^-24. */
 float test_uniform(uint32_t stream, uint64_t i);
 
+/* Point i of stream in the unit cube: three such numbers from one block, for sampling loops. */
+void test_u3(uint32_t stream, uint64_t i, float u[3]);
+
 /* A unit vector uniform on the sphere, from numbers 2i and 2i + 1 of stream, rounded from double. */
 void test_direction(uint32_t stream, uint64_t i, float w[3]);
 

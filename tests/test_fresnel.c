@@ -583,7 +583,9 @@ static void test_conductor_metals(void)
 				const double e = exact_conductor(c, ns[i], ks[i], 0.0);
 				worst_absolute = larger(worst_absolute, fabs((double)got[i] - e));
 				worst_relative = larger(worst_relative, fabs((double)got[i] - e) / e);
-				TEST_ASSERT_TRUE(got[i] == lobe_fresnel_conductor(c, ns[i], ks[i]));
+				/* By another division: 5 more roundings, and 2 in the scalar form. */
+				const double scalar = (double)lobe_fresnel_conductor(c, ns[i], ks[i]);
+				TEST_ASSERT_TRUE(fabs((double)got[i] - scalar) <= 7.0 * U * scalar);
 				TEST_ASSERT_TRUE(got[i] >= 0.0f && got[i] <= 1.0f);
 			}
 		}

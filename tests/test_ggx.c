@@ -149,7 +149,7 @@ static void test_d_domain(void)
 		const lobe_ggx d = lobe_ggx_make(widths[i], widths[WIDTHS - 1 - i]);
 		for (size_t j = 0; j < sizeof corners / sizeof corners[0]; j++)
 			TEST_ASSERT_TRUE(lobe_ggx_d(d, lobe_vec3_make(0.6f, 0.8f, corners[j])) == 0.0f);
-		TEST_ASSERT_TRUE(lobe_ggx_inv_q(d, lobe_vec3_make(0.0f, 0.0f, 0.0f)) == 0.0f);
+		TEST_ASSERT_TRUE(lobe_ggx_inv_q(d, lobe_vec3_make(0.0f, 0.0f, 0.0f)) > LOBE_REAL_MAX);
 		for (uint64_t l = 0; l < 1000; l++) {
 			const float v = lobe_ggx_d(d, direction(3, l));
 			TEST_ASSERT_TRUE(v > 0.0f && v <= LOBE_REAL_MAX);

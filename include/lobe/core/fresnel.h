@@ -21,7 +21,7 @@ typedef struct {
  * are free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle), and so is
  *	1 - F = 2 g c (1/A^2 + eta^2/B^2)
  * near total reflection. g^2 is c^2 + k or, where that cancels, eta^2 - sin^2. eta = 1 is no interface: F = 0 even at
- * c = 0. Below 2^-40 c counts as 2^-40.
+ * c = 0. Below 2^-40 c counts as 2^-40. A NaN eta gives NaN.
  *
  * Relative error, eta > 1: reflectance 9.3e-7, transmittance 4.4e-7, cos_t 1.4e-7; eta < 1, beyond what a rounding of
  * eta or c does near the edge of total reflection: 7.7e-7, 3.3e-7, 1.3e-7 (tests/test_fresnel.c, against MPFR). */
@@ -35,8 +35,8 @@ LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c_in, lobe_real eta)
 	const lobe_real g2_thin = lobe_fma(eta, eta, -s2);
 	const lobe_real g2_thick = lobe_fma(c, c, k);
 	const lobe_real g2 = eta2 < LOBE_R(0.5) ? g2_thin : g2_thick;
-	const int refracts = g2 > zero;
-	const lobe_real g = lobe_sqrt(refracts ? g2 : zero);
+	const int total = g2 <= zero;
+	const lobe_real g = lobe_sqrt(total ? zero : g2);
 	const lobe_real big_a = c + g;
 	const lobe_real big_b = lobe_fma(eta2, c, g);
 	const lobe_real inv = one / (big_a * big_b);
@@ -46,9 +46,12 @@ LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c_in, lobe_real eta)
 	const lobe_real rp = k * lobe_fma(c, g, -s2) * a * b;
 	const lobe_real refl = LOBE_R(0.5) * lobe_fma(rs, rs, rp * rp);
 	const lobe_real trans = two * g * c * lobe_fma(a, a, eta2 * b * b);
+	const lobe_real refl_at_most_1 = lobe_at_most(refl, one);
+	const lobe_real trans_at_most_1 = lobe_at_most(trans, one);
+	const lobe_real through = k == zero ? one : trans_at_most_1;
 	lobe_fresnel f;
-	f.reflectance = refracts ? lobe_min(refl, one) : one;
-	f.transmittance = refracts ? (k == zero ? one : lobe_min(trans, one)) : zero;
+	f.reflectance = total ? one : refl_at_most_1;
+	f.transmittance = total ? zero : through;
 	f.cos_t = g / eta;
 	f.bend = k * a;
 	return f;
@@ -98,7 +101,7 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
 }
 
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
- * Domain: n in [1/1000, 1000], k in [0, 1000].
+ * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
  * Let (A + iK)^2 = (n + ik)^2 - sin^2. The usual form (Born and Wolf, 14.2) needs 2Ac and a^2 + b^2 = |n^2-k^2-s^2 + 2nki|
  * =: q, with A = sqrt((q + t)/2), t = n^2 - k^2 - s^2. For a metal t < 0 and q + t cancels; then A = nk/K with
@@ -106,33 +109,55 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
  *	F_s = N/D,  N, D = (q + c^2) B -+ X c,        X = q + t if t >= 0, else 2nk
  *	F = F_s E/(E + X c s^2),                      E = (q c^2 + s^4) B
  * where the second line is (F_s + F_p)/2. Error 2.8e-7 relative for real metals, 3.1e-7 absolute over the domain, but
- * for what a rounding of t does where n^2 is near sin^2 and k near 0 (tests/test_fresnel.c). */
-LOBE_FN lobe_real lobe_fresnel_conductor_at(lobe_fresnel_angle a, lobe_real n, lobe_real k)
+ * for what a rounding of t does where n^2 is near sin^2 and k near 0 (tests/test_fresnel.c).
+ *
+ * The terms of F = N E/(D (E + X c s^2)), of which numerator and denominator are made. */
+typedef struct {
+	lobe_real p, xc, e, scale;
+} lobe_fresnel_conductor_terms;
+
+LOBE_FN lobe_fresnel_conductor_terms lobe_fresnel_conductor_terms_make(lobe_fresnel_angle a, lobe_real n, lobe_real k)
 {
-	const lobe_real zero = LOBE_R(0.0);
 	const lobe_real nk2 = (n + n) * k;
 	const lobe_real t = (n - k) * (n + k) - a.s2;
 	const lobe_real q = lobe_sqrt(lobe_fma(t, t, nk2 * nk2));
 	const lobe_real sum = q + lobe_abs(t);
 	const lobe_real b = lobe_sqrt(LOBE_R(0.5) * sum);
-	const lobe_real xc = (t >= zero ? sum : nk2) * a.c;
-	const lobe_real p = (q + a.c2) * b;
-	const lobe_real e = lobe_fma(q, a.c2, a.s4) * b;
-	const lobe_real num = lobe_max(p - xc, zero) * e;
-	const lobe_real den = (p + xc) * lobe_fma(xc, a.s2, e);
-	const lobe_real ratio = num / den;
-	return den > zero ? ratio : LOBE_R(1.0);
+	lobe_fresnel_conductor_terms f;
+	f.xc = (t >= LOBE_R(0.0) ? sum : nk2) * a.c;
+	f.p = (q + a.c2) * b;
+	f.e = lobe_fma(q, a.c2, a.s4) * b;
+	f.scale = lobe_fma(f.xc, a.s2, f.e);
+	return f;
+}
+
+LOBE_FN lobe_real lobe_fresnel_conductor_num(lobe_fresnel_conductor_terms f) { return (f.p - f.xc) * f.e; }
+
+/* Between 1e-12 and 4e18 over the domain, or 0 where k = 0 and n = sin: kept off 0. */
+LOBE_FN lobe_real lobe_fresnel_conductor_den(lobe_fresnel_conductor_terms f)
+{
+	return lobe_max((f.p + f.xc) * f.scale, LOBE_R(0x1p-60));
 }
 
 LOBE_FN lobe_real lobe_fresnel_conductor(lobe_real c, lobe_real n, lobe_real k)
 {
-	return lobe_fresnel_conductor_at(lobe_fresnel_angle_make(c), n, k);
+	const lobe_fresnel_conductor_terms f = lobe_fresnel_conductor_terms_make(lobe_fresnel_angle_make(c), n, k);
+	return lobe_max(lobe_fresnel_conductor_num(f) / lobe_fresnel_conductor_den(f), LOBE_R(0.0));
 }
 
+/* The three colours; red and green share a division, as the range of the denominators allows for two. */
 LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle a, lobe_rgb n, lobe_rgb k)
 {
-	return lobe_rgb_make(lobe_fresnel_conductor_at(a, n.r, k.r), lobe_fresnel_conductor_at(a, n.g, k.g),
-			     lobe_fresnel_conductor_at(a, n.b, k.b));
+	const lobe_real zero = LOBE_R(0.0);
+	const lobe_fresnel_conductor_terms r = lobe_fresnel_conductor_terms_make(a, n.r, k.r);
+	const lobe_fresnel_conductor_terms g = lobe_fresnel_conductor_terms_make(a, n.g, k.g);
+	const lobe_fresnel_conductor_terms b = lobe_fresnel_conductor_terms_make(a, n.b, k.b);
+	const lobe_real den_r = lobe_fresnel_conductor_den(r);
+	const lobe_real den_g = lobe_fresnel_conductor_den(g);
+	const lobe_real inv = LOBE_R(1.0) / (den_r * den_g);
+	return lobe_rgb_make(lobe_max(lobe_fresnel_conductor_num(r) * (den_g * inv), zero),
+			     lobe_max(lobe_fresnel_conductor_num(g) * (den_r * inv), zero),
+			     lobe_max(lobe_fresnel_conductor_num(b) / lobe_fresnel_conductor_den(b), zero));
 }
 
 LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)

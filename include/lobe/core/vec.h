@@ -62,6 +62,9 @@ LOBE_FN lobe_rgb lobe_rgb_scale(lobe_rgb c, lobe_real s) { return lobe_rgb_make(
 LOBE_FN lobe_real lobe_min(lobe_real a, lobe_real b) { return a < b ? a : b; }
 LOBE_FN lobe_real lobe_max(lobe_real a, lobe_real b) { return a > b ? a : b; }
 
+/* x where it is not above hi; a NaN stays a NaN, which lobe_min(x, hi) would turn into hi. */
+LOBE_FN lobe_real lobe_at_most(lobe_real x, lobe_real hi) { return x > hi ? hi : x; }
+
 /* x limited to [lo, hi]; a NaN stays a NaN, so that the host can refuse it by name. */
 LOBE_FN lobe_real lobe_clamp(lobe_real x, lobe_real lo, lobe_real hi) { return x < lo ? lo : (x > hi ? hi : x); }
 

@@ -29,7 +29,7 @@ LOBE_FN lobe_ggx_conductor lobe_ggx_conductor_make(lobe_real alpha_x, lobe_real 
 	return p;
 }
 
-/* D(h)/4 for the half vector H = wo + wi, h2 = |H|^2. */
+/* D(h)/4 for the half vector H = wo + wi, h2 = |H|^2. NaN for H = 0. */
 LOBE_FN lobe_real lobe_ggx_conductor_quarter_d(lobe_ggx_conductor p, lobe_vec3 h, lobe_real h2)
 {
 	const lobe_real x = LOBE_R(0.5) * h2 * lobe_ggx_inv_q(p.ggx, h);
@@ -39,8 +39,16 @@ LOBE_FN lobe_real lobe_ggx_conductor_quarter_d(lobe_ggx_conductor p, lobe_vec3 h
 /* Fresnel at o.h = |H|/2, which for unit directions does not cancel as the dot product does when both graze. */
 LOBE_FN lobe_rgb lobe_ggx_conductor_fresnel(lobe_ggx_conductor p, lobe_real h2)
 {
-	const lobe_real c2 = lobe_min(LOBE_R(0.25) * h2, LOBE_R(1.0));
-	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_from_cos2(c2), p.eta, p.k);
+	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_from_cos2(LOBE_R(0.25) * h2), p.eta, p.k);
+}
+
+/* Both directions above the surface, every parameter a number (out of a loop over one material that is taken once) and
+ * the density x too; x is then >= 0. */
+LOBE_FN int lobe_ggx_conductor_ok(lobe_ggx_conductor p, lobe_vec3 wo, lobe_vec3 wi, lobe_real x)
+{
+	const lobe_real sum = p.ggx.norm + p.eta.r + p.eta.g + p.eta.b + p.k.r + p.k.g + p.k.b;
+	const int numbers = sum - sum == LOBE_R(0.0);
+	return numbers & (lobe_min(wo.z, wi.z) > LOBE_R(0.0)) & (x <= LOBE_REAL_MAX);
 }
 
 /* f |cos theta_i| [1/sr] */
@@ -48,11 +56,10 @@ LOBE_FN lobe_rgb lobe_ggx_conductor_eval(lobe_ggx_conductor p, lobe_vec3 wo, lob
 {
 	const lobe_vec3 h = lobe_vec3_add(wo, wi);
 	const lobe_real h2 = lobe_dot(h, h);
-	const int above = (wo.z > LOBE_R(0.0)) & (wi.z > LOBE_R(0.0));
 	const lobe_real g = lobe_ggx_g2_over_cos(wo.z, lobe_ggx_t(p.ggx, wo), wi.z, lobe_ggx_t(p.ggx, wi));
 	const lobe_real dg = lobe_ggx_conductor_quarter_d(p, h, h2) * g;
-	const lobe_real scale = above ? dg : LOBE_R(0.0);
-	return lobe_rgb_finite_or_zero(lobe_rgb_scale(lobe_ggx_conductor_fresnel(p, h2), scale));
+	const int ok = lobe_ggx_conductor_ok(p, wo, wi, dg);
+	return lobe_rgb_scale(lobe_ggx_conductor_fresnel(p, h2), ok ? dg : LOBE_R(0.0));
 }
 
 /* [1/sr] */
@@ -60,10 +67,10 @@ LOBE_FN lobe_real lobe_ggx_conductor_pdf(lobe_ggx_conductor p, lobe_vec3 wo, lob
 {
 	const lobe_vec3 h = lobe_vec3_add(wo, wi);
 	const lobe_real quarter_d = lobe_ggx_conductor_quarter_d(p, h, lobe_dot(h, h));
-	const int above = (wo.z > LOBE_R(0.0)) & (wi.z > LOBE_R(0.0));
 	const lobe_real two_sigma = wo.z + lobe_ggx_t(p.ggx, wo);
-	const lobe_real pdf = lobe_finite_or_zero((quarter_d + quarter_d) / two_sigma);
-	return above ? pdf : LOBE_R(0.0);
+	const lobe_real pdf = (quarter_d + quarter_d) / two_sigma;
+	const int ok = lobe_ggx_conductor_ok(p, wo, wi, pdf);
+	return ok ? pdf : LOBE_R(0.0);
 }
 
 /* Uses u.x and u.y. No sample when the facet reflects below the surface. */
@@ -78,7 +85,7 @@ LOBE_FN lobe_sample lobe_ggx_conductor_sample(lobe_ggx_conductor p, lobe_vec3 wo
 	const lobe_real two_sigma = wo.z + t_o;
 	const lobe_real g2_over_g1 =
 		LOBE_R(0.5) * two_sigma * lobe_ggx_g2_over_cos(wo.z, t_o, wi.z, lobe_ggx_t(p.ggx, wi));
-	return lobe_sample_select(pdf > LOBE_R(0.0), wi, lobe_rgb_finite_or_zero(lobe_rgb_scale(f, g2_over_g1)), pdf,
+	return lobe_sample_select(pdf > LOBE_R(0.0), wi, lobe_rgb_scale(f, lobe_finite_or_zero(g2_over_g1)), pdf,
 				  LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY);
 }
 

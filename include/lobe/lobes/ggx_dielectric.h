@@ -5,7 +5,7 @@
  *
  * Joint masking: height-correlated on one side (Heitz 2014 eq. 99). Across the surface G1(o) G1(i), as Walter: the exact
  * value for Smith's uncorrelated heights is Beta(1 + Lambda_o, 1 + Lambda_i), to which the product is nearer than the
- * 1/(1 + Lambda_o + Lambda_i) of one side; tests/test_dielectric.c measures the distance. Single scattering: what would
+ * 1/(1 + Lambda_o + Lambda_i) of one side; tests/test_lobes_energy.c measures the distance. Single scattering: what would
  * hit the microsurface again is lost.
  *
  * Near eta = 1. A facet turns light by about |eta - 1|, so refracted light spreads over alpha |eta - 1|. Where that is
@@ -35,7 +35,7 @@ LOBE_FN lobe_ggx_dielectric lobe_ggx_dielectric_make(lobe_real alpha_x, lobe_rea
 	lobe_ggx_dielectric p;
 	p.ggx = lobe_ggx_make(alpha_x, alpha_y);
 	p.eta = eta;
-	p.inv_eta = LOBE_R(1.0) / eta;
+	p.inv_eta = LOBE_R(1.0) / eta + (eta - eta); /* NaN for an infinite eta, not 0 */
 	p.transport = LOBE_TRANSPORT_RADIANCE;
 	p.delta = lobe_max(p.ggx.alpha_x, p.ggx.alpha_y) * lobe_abs(eta - LOBE_R(1.0)) < LOBE_DIELECTRIC_DELTA;
 	return p;
@@ -150,11 +150,16 @@ LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 
 	const int reflects = u.z < fr.reflectance;
 	const int delta = (p.delta != 0u) & !reflects;
 	const lobe_vec3 mirrored = lobe_reflect(v.o, m, c);
-	const lobe_vec3 refracted = lobe_refract(v.o, m, v.inv_e, fr);
+	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, fr);
+	/* Towards the thinner side the rounding of c grows by 1/e^2; the other way bent is unit, and at e = 1 it is -o. */
+	const lobe_real inv_length = one / lobe_sqrt(lobe_dot(bent, bent));
+	const lobe_real to_unit = v.e < one ? inv_length : one;
+	const lobe_vec3 refracted = lobe_vec3_scale(bent, to_unit);
 	const lobe_vec3 i = lobe_vec3_make(reflects ? mirrored.x : refracted.x, reflects ? mirrored.y : refracted.y,
 					   reflects ? mirrored.z : refracted.z);
+	/* Rounding can turn a facet away from wo where the cap's rim meets its opposite: c <= 0. */
 	const lobe_real outwards = reflects ? i.z : -i.z;
-	const int right_side = (v.o.z > zero) & (outwards > zero);
+	const int right_side = (lobe_min(v.o.z, c) > zero) & (outwards > zero);
 	const lobe_vec3 wi = lobe_ggx_dielectric_flip(wo, i);
 
 	const lobe_real density = lobe_ggx_dielectric_pdf(p, wo, wi);

@@ -45,14 +45,13 @@ LOBE_FN lobe_real lobe_ggx_t(lobe_ggx d, lobe_vec3 w)
 }
 
 /* 1/Q(h), Q = (hx/ax)^2 + (hy/ay)^2 + hz^2, for a half vector of any length: D(h/|h|) = norm |h|^4/Q^2, so whatever
- * multiplies D takes its share of the length and nothing is normalised. 0 for h = 0, where there is no half vector. */
+ * multiplies D takes its share of the length and nothing is normalised. Infinite for h = 0, where there is no half
+ * vector. */
 LOBE_FN lobe_real lobe_ggx_inv_q(lobe_ggx d, lobe_vec3 h)
 {
-	const lobe_real zero = LOBE_R(0.0);
 	const lobe_real x = d.inv_alpha_x * h.x;
 	const lobe_real y = d.inv_alpha_y * h.y;
-	const lobe_real q = lobe_fma(x, x, lobe_fma(y, y, h.z * h.z));
-	return q > LOBE_R(0x1p-125) ? LOBE_R(1.0) / q : zero;
+	return LOBE_R(1.0) / lobe_fma(x, x, lobe_fma(y, y, h.z * h.z));
 }
 
 /* D(m), density of microfacet area per solid angle of m [1/sr]; |m| = 1, 0 for m.z <= 0. */

@@ -1,0 +1,50 @@
+/* cases.h - the parameter sets that every lobe is tested with, and the directions it is seen from.
+ *
+ *	for (size_t i = 0; i < case_count(); i++) {
+ *		const test_case *c = case_at(i);
+ *		for (size_t k = 0; k < case_wo_count(c); k++)
+ *			... lobe_bsdf_eval(c->bsdf, case_wo(k), ...)
+ *
+ * A lobe of lobes.def without a table in cases.c does not compile. */
+#ifndef LOBE_TESTS_CASES_H
+#define LOBE_TESTS_CASES_H
+
+#include "lobe/shading.h"
+
+#include <stddef.h>
+
+enum {
+	CASE_TWO_SIDED = 1, /* shades from below too */
+	CASE_TRANSMITS = 2,
+	CASE_RECIPROCAL = 4, /* f(wo,wi) = f(wi,wo), across the surface with the square of the index */
+	CASE_DELTA = 8       /* some samples are LOBE_EVENT_DELTA */
+};
+
+#define CASE_PARAMETERS 8
+
+/* parameter: the arguments of make in order (cases_make.h), each one a float, so that the double build means the same
+ * lobe. alpha_x, alpha_y: the width of a microsurface, 0 for a lobe without one; eta: index below over index above, 0
+ * where nothing is transmitted. Both serve to find coordinates in which the lobe is wide. */
+typedef struct {
+	const char *name;
+	lobe_uint kind;
+	double parameter[CASE_PARAMETERS];
+	lobe_bsdf bsdf;
+	unsigned flags;
+	double alpha_x, alpha_y, eta;
+} test_case;
+
+size_t case_count(void);
+const test_case *case_at(size_t i);
+
+/* Directions from cos 1 down to 1e-6; the second half of the list is below the surface. */
+size_t case_wo_count(const test_case *c);
+lobe_vec3 case_wo(size_t i);
+
+/* How far half a rounding of wi moves it within the lobe seen from wo, in widths of the lobe. Float directions form a
+ * lattice: where this is below CASE_SMOOTH, its steps stay within the noise of 1M samples in some hundred bins, and
+ * samples can be compared with the density bin by bin. */
+#define CASE_SMOOTH 1e-3
+double case_rounding(const test_case *c, lobe_vec3 wo);
+
+#endif

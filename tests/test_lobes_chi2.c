@@ -1,0 +1,436 @@
+/* test_lobes_chi2.c - samples against the density: it integrates to 1 less what sample rejects, and the samples follow
+ * it bin by bin.
+ *
+ * Bins and quadrature live in the coordinates of quadrature.h. A bin's probability is the integral of the lobe's own
+ * pdf at directions rounded to float; the bins are a grid of reflected and one of transmitted directions, one bin of
+ * delta events, whose probability comes from the textbook's Fresnel and facet distribution, and one of rejected
+ * samples. */
+#include "cases.h"
+#include "double.h"
+#include "quadrature.h"
+#include "support.h"
+#include "textbook.h"
+
+#include "unity.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void setUp(void) {}
+void tearDown(void) {}
+
+#define SIDE    20
+#define GRID    (SIDE * SIDE)
+#define BINS    (2 * GRID + 2)
+#define DELTA   (2 * GRID)
+#define REJECT  (2 * GRID + 1)
+#define SAMPLES 1000000u
+#define LEVEL   0.01
+
+/* One lobe from one direction. in_double: the LOBE_DOUBLE build of it. wrong: what pdf is replaced by to see whether
+ * the test notices; 0 for the true one. */
+enum { RIGHT, WRONG_SCALE, WRONG_ALPHA };
+
+typedef struct {
+	const test_case *c;
+	lobe_vec3 wo;
+	int in_double, wrong;
+	lobe_bsdf wrong_bsdf;
+	direction_map reflect, transmit;
+} scene;
+
+typedef struct {
+	double expected[BINS], quadrature_error;
+	uint32_t observed[BINS];
+	double chi2;
+	int dof;
+} histogram;
+
+static double pdf_at(const scene *s, const double wi[3], double x)
+{
+	if (s->in_double) {
+		const double wo[3] = {(double)s->wo.x, (double)s->wo.y, (double)s->wo.z};
+		return double_pdf(s->c->kind, s->c->parameter, wo, wi);
+	}
+	const lobe_vec3 w = lobe_vec3_make((float)wi[0], (float)wi[1], (float)wi[2]);
+	const double pdf = (double)lobe_bsdf_pdf(s->wrong == WRONG_ALPHA ? s->wrong_bsdf : s->c->bsdf, s->wo, w);
+	/* 2 % of the mass of the outer half taken away and given to the inner one keeps the integral nearly as it was.
+	 */
+	return s->wrong == WRONG_SCALE ? pdf * (x < 0.5 ? 0.98 : 1.02) : pdf;
+}
+
+static double reflect_pdf(void *context, double x, double y)
+{
+	const scene *s = context;
+	double wi[3];
+	const double area = map_direction(&s->reflect, x, y, wi);
+	return area > 0.0 ? area * pdf_at(s, wi, x) : 0.0;
+}
+
+static double reflect_edge(void *context, double x, double y)
+{
+	return map_edge(&((const scene *)context)->reflect, x, y);
+}
+
+static double reflect_kink(void *context, double x, double y)
+{
+	return map_kink(&((const scene *)context)->reflect, x, y);
+}
+
+static double transmit_edge(void *context, double x, double y)
+{
+	return map_edge(&((const scene *)context)->transmit, x, y);
+}
+
+static double transmit_pdf(void *context, double x, double y)
+{
+	const scene *s = context;
+	double wi[3];
+	const double area = map_direction(&s->transmit, x, y, wi);
+	return area > 0.0 ? area * pdf_at(s, wi, x) : 0.0;
+}
+
+/* Probability of a visible facet times that of refraction through it. */
+static double delta_share(void *context, double x, double y)
+{
+	const scene *s = context;
+	const direction_map *m = &s->transmit;
+	double facet[3];
+	if (map_edge(m, x, y) <= 0.0)
+		return 0.0;
+	const double area = map_facet(m, x, y, facet);
+	const double c = textbook_dot(m->o, facet);
+	const double g1_over_z = 1.0 / (m->o[2] * (1.0 + textbook_ggx_lambda(m->ax, m->ay, m->o)));
+	return area * textbook_ggx_d(m->ax, m->ay, facet) * c * g1_over_z * (1.0 - textbook_fresnel(c, m->e));
+}
+
+static scene scene_make(const test_case *c, lobe_vec3 wo, int in_double, int wrong)
+{
+	const double w[3] = {(double)wo.x, (double)wo.y, (double)wo.z};
+	const map_kind kind = c->alpha_x > 0.0 ? MAP_REFLECT : MAP_SPHERE;
+	scene s;
+	s.c = c;
+	s.wo = wo;
+	s.in_double = in_double;
+	s.wrong = wrong;
+	s.wrong_bsdf = c->bsdf;
+	s.reflect = map_make(kind, w, c->alpha_x, c->alpha_y, c->eta);
+	s.transmit = map_make(MAP_TRANSMIT, w, c->alpha_x, c->alpha_y, c->eta);
+	return s;
+}
+
+static double integrate(const scene *s, quadrature_integrand f, quadrature_integrand edge, double *bins, double *error)
+{
+	scene copy = *s;
+	const int kinked = f == reflect_pdf && (s->c->flags & CASE_TRANSMITS) && s->reflect.e < 1.0;
+	quadrature q = {
+	    f, s->reflect.kind == MAP_SPHERE ? NULL : edge, kinked ? reflect_kink : NULL, &copy, 1e-7, 1e-3, 5, 0.0};
+	double sum = 0.0;
+	for (int i = 0; i < SIDE; i++)
+		for (int k = 0; k < SIDE; k++)
+			sum += bins[i * SIDE + k] =
+			    quadrature_box(&q, (double)i / SIDE, (i + 1.0) / SIDE, (double)k / SIDE, (k + 1.0) / SIDE);
+	*error += q.error;
+	return sum;
+}
+
+static void expect(const scene *s, histogram *h)
+{
+	double unused[GRID];
+	memset(h, 0, sizeof *h);
+	double sum = integrate(s, reflect_pdf, reflect_edge, h->expected, &h->quadrature_error);
+	if (s->c->flags & CASE_DELTA)
+		sum += h->expected[DELTA] = integrate(s, delta_share, transmit_edge, unused, &h->quadrature_error);
+	else if (s->c->flags & CASE_TRANSMITS)
+		sum += integrate(s, transmit_pdf, transmit_edge, h->expected + GRID, &h->quadrature_error);
+	h->expected[REJECT] = 1.0 - sum;
+}
+
+static int bin_of(const scene *s, const double wi[3], lobe_uint event)
+{
+	double x, y;
+	if (event == 0u)
+		return REJECT;
+	if (event & LOBE_EVENT_DELTA)
+		return DELTA;
+	map_coordinates(event & LOBE_EVENT_TRANSMIT ? &s->transmit : &s->reflect, wi, &x, &y);
+	const int i = (int)(x * SIDE), k = (int)(y * SIDE);
+	return (event & LOBE_EVENT_TRANSMIT ? GRID : 0) + (i < SIDE ? i : SIDE - 1) * SIDE + (k < SIDE ? k : SIDE - 1);
+}
+
+static void observe(const scene *s, uint32_t stream, histogram *h)
+{
+	const double wo[3] = {(double)s->wo.x, (double)s->wo.y, (double)s->wo.z};
+	memset(h->observed, 0, sizeof h->observed);
+	for (uint32_t i = 0; i < SAMPLES; i++) {
+		float u[3];
+		test_u3(stream, i, u);
+		if (s->in_double) {
+			const double v[3] = {(double)u[0], (double)u[1], (double)u[2]};
+			const double_sample r = double_sample_at(s->c->kind, s->c->parameter, wo, v);
+			h->observed[bin_of(s, r.wi, r.event)]++;
+		} else {
+			const lobe_sample r = lobe_bsdf_sample(s->c->bsdf, s->wo, lobe_vec3_make(u[0], u[1], u[2]));
+			const double wi[3] = {(double)r.wi.x, (double)r.wi.y, (double)r.wi.z};
+			h->observed[bin_of(s, wi, r.event)]++;
+		}
+	}
+}
+
+/* Upper tail of Pearson's statistic. Bins that expect fewer than 5 samples are pooled into one. The probabilities add
+ * up to 1 by construction, so that a density that does not shows in the bin of rejected samples. */
+static double chi_square(histogram *h)
+{
+	double pool_expected = 0.0, pool_observed = 0.0;
+	h->chi2 = 0.0;
+	h->dof = -1;
+	for (int i = 0; i < BINS; i++) {
+		const double e = h->expected[i] * SAMPLES, o = h->observed[i];
+		if (e < 5.0) {
+			pool_expected += e > 0.0 ? e : 0.0;
+			pool_observed += o;
+		} else {
+			/* What is rejected is expected by difference, so the quadrature's whole error lands here. */
+			const double slack = i == REJECT ? h->quadrature_error * SAMPLES : 0.0;
+			const double off = fmax(fabs(o - e) - slack, 0.0);
+			h->chi2 += off * off / e;
+			h->dof++;
+		}
+	}
+	/* What is expected (almost) never must be seen (almost) never: the pool counts as 1 expected sample at least,
+	 * which is more than the quadrature's error. */
+	const double e = fmax(pool_expected, 1.0);
+	if (pool_expected >= 1.0 || pool_observed > 10.0) {
+		h->chi2 += (pool_observed - e) * (pool_observed - e) / e;
+		h->dof++;
+	}
+	return h->dof < 1 ? (pool_observed > 10.0 ? 0.0 : 1.0) : gsl_cdf_chisq_Q(h->chi2, h->dof);
+}
+
+/* cos and azimuth of wo; those below the surface are for lobes with two sides. */
+static const double views[][2] = {{1.0, 0.0}, {0.7, 0.6}, {0.25, 2.2}, {0.04, 4.0}, {-0.8, 5.5}, {-0.15, 1.2}};
+#define VIEWS (sizeof views / sizeof *views)
+
+static lobe_vec3 view(size_t i)
+{
+	const double z = views[i][0], s = sqrt((1.0 - z) * (1.0 + z));
+	return lobe_vec3_make((float)(s * cos(views[i][1])), (float)(s * sin(views[i][1])), (float)z);
+}
+
+/* The double build is looked at where float directions are too coarse to resolve the lobe. */
+static int planned(const test_case *c, lobe_vec3 wo, int in_double)
+{
+	if (wo.z < 0.0f && !(c->flags & CASE_TWO_SIDED))
+		return 0;
+	const double noise = case_rounding(c, wo);
+	return in_double ? noise >= CASE_SMOOTH && noise * 0x1p-29 < CASE_SMOOTH : noise < CASE_SMOOTH;
+}
+
+typedef struct {
+	const char *name;
+	int in_double;
+	double cos_o, integral, rejected, sigma, quadrature_error, p;
+	int dof;
+} result;
+
+static result *results;
+static size_t result_count;
+
+static void measure_all(void)
+{
+	histogram *h = malloc(sizeof *h);
+	results = malloc(2 * case_count() * VIEWS * sizeof *results);
+	if (!h || !results)
+		exit(2);
+	for (int in_double = 0; in_double < 2; in_double++)
+		for (size_t i = 0; i < case_count(); i++)
+			for (size_t k = 0; k < VIEWS; k++) {
+				const test_case *c = case_at(i);
+				const lobe_vec3 wo = view(k);
+				if (!planned(c, wo, in_double) || (!test_long() && (i + k) % 2 == 1))
+					continue;
+				const scene s = scene_make(c, wo, in_double, RIGHT);
+				result *r = &results[result_count];
+				expect(&s, h);
+				observe(&s, 1000u + (uint32_t)result_count++, h);
+				r->name = c->name;
+				r->in_double = in_double;
+				r->cos_o = views[k][0];
+				r->p = chi_square(h);
+				r->dof = h->dof;
+				r->integral = 1.0 - h->expected[REJECT];
+				r->rejected = h->observed[REJECT] / (double)SAMPLES;
+				r->sigma = sqrt(r->rejected * (1.0 - r->rejected) / SAMPLES);
+				r->quadrature_error = h->quadrature_error;
+				if (test_long())
+					printf("  %-26s %s cos %5.2f  integral %.5f  rejected %.5f  chi2 %8.1f  dof "
+					       "%3d  p %.2e  qerr %.1e\n",
+					       r->name, in_double ? "double" : "float ", r->cos_o, r->integral,
+					       r->rejected, h->chi2, r->dof, r->p, r->quadrature_error);
+			}
+	free(h);
+}
+
+/* 5 standard deviations of the rejected share of 1M samples, and what the quadrature admits to. */
+static void test_pdf_integrates_to_one_less_what_is_rejected(void)
+{
+	double worst = 0.0, worst_sigmas = 0.0;
+	size_t bad = 0;
+	for (size_t i = 0; i < result_count; i++) {
+		const result *r = &results[i];
+		const double off = fabs(r->integral + r->rejected - 1.0);
+		const double allowed = 5.0 * r->sigma + 5.0 / SAMPLES + r->quadrature_error;
+		worst = fmax(worst, off);
+		worst_sigmas = fmax(worst_sigmas, off / fmax(r->sigma, 1.0 / SAMPLES));
+		if (off > allowed) {
+			bad++;
+			printf("  %-26s %s cos %5.2f: integral %.6f + rejected %.6f is off by %.1e, allowed %.1e\n",
+			       r->name, r->in_double ? "double" : "float", r->cos_o, r->integral, r->rejected, off,
+			       allowed);
+		}
+	}
+	printf("  %zu integrals: |integral + rejected - 1| <= %.1e, at most %.1f standard deviations\n", result_count,
+	       worst, worst_sigmas);
+	TEST_ASSERT_EQUAL_UINT(0, bad);
+}
+
+static double sidak(void)
+{
+	return -expm1(log1p(-LEVEL) / (double)result_count);
+}
+
+static void test_samples_follow_the_pdf(void)
+{
+	double least = 1.0;
+	size_t bad = 0, in_float = 0;
+	for (size_t i = 0; i < result_count; i++) {
+		const result *r = &results[i];
+		least = fmin(least, r->p);
+		in_float += !r->in_double;
+		if (r->p < sidak()) {
+			bad++;
+			printf("  %-26s %s cos %5.2f: p %.2e, %d degrees of freedom\n", r->name,
+			       r->in_double ? "double" : "float", r->cos_o, r->p, r->dof);
+		}
+	}
+	printf("  %zu chi-square tests of 1M samples, %zu of them in single precision: least p %.2e, level %.2e\n",
+	       result_count, in_float, least, sidak());
+	TEST_ASSERT_EQUAL_UINT(0, bad);
+}
+
+static const test_case *case_named(const char *name)
+{
+	for (size_t i = 0; i < case_count(); i++)
+		if (strcmp(case_at(i)->name, name) == 0)
+			return case_at(i);
+	TEST_FAIL_MESSAGE(name);
+	return NULL;
+}
+
+/* The same machinery on a density that is 2 % wrong in a region, one whose alpha is 3 % wrong, and the true one. */
+static void test_a_wrong_pdf_is_caught(void)
+{
+	static const char *const names[] = {"lambert grey", "gold .25", "copper .05:.4", "glass .3 importance",
+					    "bubble .2"};
+	histogram *h = malloc(sizeof *h);
+	TEST_ASSERT_NOT_NULL(h);
+	for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+		const test_case *c = case_named(names[i]);
+		double p[3] = {1.0, 1.0, 1.0};
+		for (int wrong = RIGHT; wrong <= WRONG_ALPHA; wrong++) {
+			scene s = scene_make(c, view(1), 0, wrong);
+			if (wrong == WRONG_ALPHA) {
+				const lobe_real ax = (lobe_real)(1.03 * c->alpha_x),
+						ay = (lobe_real)(1.03 * c->alpha_y);
+				if (c->kind == LOBE_KIND_GGX_CONDUCTOR)
+					s.wrong_bsdf.as.ggx_conductor.ggx = lobe_ggx_make(ax, ay);
+				else if (c->kind == LOBE_KIND_GGX_DIELECTRIC)
+					s.wrong_bsdf.as.ggx_dielectric.ggx = lobe_ggx_make(ax, ay);
+				else
+					continue;
+			}
+			expect(&s, h);
+			observe(&s, 77u, h);
+			p[wrong] = chi_square(h);
+		}
+		printf("  %-20s p: true pdf %.2e, 2 %% in a region %.2e, alpha off by 3 %% %.2e\n", c->name, p[RIGHT],
+		       p[WRONG_SCALE], p[WRONG_ALPHA]);
+		TEST_ASSERT_TRUE(p[RIGHT] > sidak());
+		TEST_ASSERT_TRUE(p[WRONG_SCALE] < 1e-9);
+		TEST_ASSERT_TRUE(c->alpha_x <= 0.0 || p[WRONG_ALPHA] < 1e-9);
+	}
+	free(h);
+}
+
+/* A second rule that knows nothing of facets: equal areas of the whole sphere. It would see a density where the maps of
+ * the others never go. */
+static double sphere_pdf(void *context, double x, double y)
+{
+	const scene *s = context;
+	const direction_map m = {MAP_SPHERE, {0.0, 0.0, 1.0}, 1.0, 0.0, 0.0, 1.0};
+	double wi[3];
+	return map_direction(&m, x, y, wi) * pdf_at(s, wi, x);
+}
+
+/* The density jumps at the horizon, and where the facet that refracts is vertical: o.z + e i.z = 0. The grid has lines
+ * there, since Gauss points need not notice a jump. */
+static double over_sphere(scene *s, double *error)
+{
+	const direction_map *m = &s->transmit;
+	double at[4] = {0.0, 0.5, 0.5, 1.0}, sum = 0.0;
+	quadrature q = {sphere_pdf, NULL, NULL, s, 1e-8, 1e-4, 9, 0.0};
+	if ((s->c->flags & CASE_TRANSMITS) && m->o[2] < m->e)
+		at[m->side > 0.0 ? 1 : 2] = 0.5 - 0.5 * m->side * m->o[2] / m->e;
+	for (int i = 0; i < 3; i++)
+		for (int a = 0; a < 12 && at[i] < at[i + 1]; a++)
+			for (int b = 0; b < 16; b++) {
+				const double step = (at[i + 1] - at[i]) / 12.0;
+				sum += quadrature_box(&q, at[i] + a * step, at[i] + (a + 1) * step, b / 16.0,
+						      (b + 1) / 16.0);
+			}
+	*error = q.error;
+	return sum;
+}
+
+static void test_pdf_over_the_whole_sphere_agrees(void)
+{
+	double worst = 0.0;
+	unsigned n = 0;
+	for (size_t i = 0; i < result_count; i++) {
+		const result *r = &results[i];
+		const test_case *c = case_named(r->name);
+		const double smooth = c->alpha_x > 0.0 ? fmin(c->alpha_x, c->alpha_y) : 1.0;
+		const int bends = !(c->flags & CASE_TRANSMITS) || fabs(c->eta - 1.0) > 0.1;
+		if (r->in_double || smooth < 0.2 || !bends || fabs(r->cos_o) < 0.1)
+			continue;
+		for (size_t k = 0; k < VIEWS; k++)
+			if (views[k][0] == r->cos_o) {
+				scene s = scene_make(c, view(k), 0, RIGHT);
+				double error = 0.0;
+				const double sum = over_sphere(&s, &error);
+				const double off = fabs(sum - r->integral);
+				worst = fmax(worst, off);
+				n++;
+				if (off > 1e-4 + error + r->quadrature_error)
+					printf("  %s cos %.2f: %.6f over the sphere, %.6f over facets\n", r->name,
+					       r->cos_o, sum, r->integral);
+				TEST_ASSERT_TRUE(off <= 1e-4 + error + r->quadrature_error);
+			}
+	}
+	printf("  %u integrals by the other rule: largest difference %.1e\n", n, worst);
+	TEST_ASSERT_TRUE(n > 20u);
+}
+
+int main(void)
+{
+	UNITY_BEGIN();
+	measure_all();
+	RUN_TEST(test_pdf_integrates_to_one_less_what_is_rejected);
+	RUN_TEST(test_samples_follow_the_pdf);
+	RUN_TEST(test_a_wrong_pdf_is_caught);
+	RUN_TEST(test_pdf_over_the_whole_sphere_agrees);
+	free(results);
+	return UNITY_END() != 0;
+}
