@@ -59,6 +59,13 @@ LOBE_FN lobe_rgb lobe_rgb_make(lobe_real r, lobe_real g, lobe_real b)
 
 LOBE_FN lobe_rgb lobe_rgb_scale(lobe_rgb c, lobe_real s) { return lobe_rgb_make(c.r * s, c.g * s, c.b * s); }
 
+/* c where ok, else 0. */
+LOBE_FN lobe_rgb lobe_rgb_select(int ok, lobe_rgb c)
+{
+	const lobe_real zero = LOBE_R(0.0);
+	return lobe_rgb_make(ok ? c.r : zero, ok ? c.g : zero, ok ? c.b : zero);
+}
+
 LOBE_FN lobe_real lobe_min(lobe_real a, lobe_real b) { return a < b ? a : b; }
 LOBE_FN lobe_real lobe_max(lobe_real a, lobe_real b) { return a > b ? a : b; }
 

@@ -58,8 +58,8 @@ LOBE_FN lobe_rgb lobe_ggx_conductor_eval(lobe_ggx_conductor p, lobe_vec3 wo, lob
 	const lobe_real h2 = lobe_dot(h, h);
 	const lobe_real g = lobe_ggx_g2_over_cos(wo.z, lobe_ggx_t(p.ggx, wo), wi.z, lobe_ggx_t(p.ggx, wi));
 	const lobe_real dg = lobe_ggx_conductor_quarter_d(p, h, h2) * g;
-	const int ok = lobe_ggx_conductor_ok(p, wo, wi, dg);
-	return lobe_rgb_scale(lobe_ggx_conductor_fresnel(p, h2), ok ? dg : LOBE_R(0.0));
+	return lobe_rgb_select(lobe_ggx_conductor_ok(p, wo, wi, dg),
+			       lobe_rgb_scale(lobe_ggx_conductor_fresnel(p, h2), dg));
 }
 
 /* [1/sr] */
