@@ -19,7 +19,7 @@ LIBS := -lm -ldl -lpthread
 LOBES := $(shell sed -n 's/^LOBE_X.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
 
 ISAS := baseline
-ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
+ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine 2>/dev/null)))
 ISAS += avx2 avx512
 LIB_CFLAGS += -DLOBE_X86
 endif

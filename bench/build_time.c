@@ -31,8 +31,7 @@ static int child_failed(void)
 int bench_build_child(char **arguments)
 {
 	/* Those of PoCL, of Mesa and Intel, and of NVIDIA. Before the first call: the runtime reads them once. */
-	static const char *const variables[] = {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "CUDA_CACHE_PATH",
-						"cl_cache_dir"};
+	static const char *const variables[] = {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "CUDA_CACHE_PATH", "cl_cache_dir"};
 	const int lobe = atoi(arguments[2]);
 	double start = bench_now(), time[TIMES];
 	lobe_device *device;
@@ -128,10 +127,7 @@ typedef struct {
 	double cache_bytes;
 } build_times;
 
-static double median_ms(double *seconds, size_t n)
-{
-	return 1e3 * bench_stats_of(seconds, n).median;
-}
+static double median_ms(double *seconds, size_t n) { return 1e3 * bench_stats_of(seconds, n).median; }
 
 static int measure(const char *program, const char *device, int lobe, size_t runs, build_times *out)
 {

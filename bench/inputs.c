@@ -23,10 +23,7 @@ static philox4x32_ctr_t numbers(uint32_t stream, size_t i)
 }
 
 /* [0, 1), a multiple of 2^-24 */
-static float uniform(uint32_t bits)
-{
-	return (float)(bits >> 8) * 0x1p-24f;
-}
+static float uniform(uint32_t bits) { return (float)(bits >> 8) * 0x1p-24f; }
 
 /* Unit and never in the plane of the surface. lowest: -1 for the sphere, 0 for the upper hemisphere. */
 static void direction(float *const w[3], size_t i, float lowest, uint32_t a, uint32_t b)
@@ -71,10 +68,7 @@ int bench_arrays_create(bench_arrays *a, size_t n)
 	return 1;
 }
 
-void bench_arrays_destroy(bench_arrays *a)
-{
-	free(a->memory);
-}
+void bench_arrays_destroy(bench_arrays *a) { free(a->memory); }
 
 lobe_batch bench_batch(const bench_arrays *a, int verb, size_t n)
 {
@@ -111,9 +105,9 @@ lobe_status bench_run(lobe_scene *scene, int verb, const lobe_batch *batch)
 /* The outputs of a batch, copied to results; the number of arrays. */
 static size_t take_outputs(const lobe_batch *b, float *results)
 {
-	const void *const out[] = {b->f[0],	    b->f[1],	  b->f[2],	b->pdf,	      b->sample_wi[0],
-				   b->sample_wi[1], b->sample_wi[2], b->weight[0], b->weight[1], b->weight[2],
-				   b->sample_pdf,   b->event};
+	const void *const out[] = {b->f[0],         b->f[1],         b->f[2],         b->pdf,
+				   b->sample_wi[0], b->sample_wi[1], b->sample_wi[2], b->weight[0],
+				   b->weight[1],    b->weight[2],    b->sample_pdf,   b->event};
 	size_t n = 0;
 	for (size_t k = 0; k < sizeof out / sizeof *out; k++)
 		if (out[k])

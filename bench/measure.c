@@ -23,9 +23,9 @@ typedef struct {
 	const bench_plan *plan;
 	bench_results *results;
 	bench_arrays arrays;
-	bench_copy *copy[BENCH_DEVICES_MAX]; /* by device; devices of as many threads share one */
+	bench_copy *copy[BENCH_DEVICES_MAX];  /* by device; devices of as many threads share one */
 	lobe_scene *scene[BENCH_DEVICES_MAX]; /* of the lobe at hand */
-	cell *cell;                          /* of the lobe at hand, as results->result[first..] */
+	cell *cell;                           /* of the lobe at hand, as results->result[first..] */
 	size_t first;
 } work;
 
@@ -35,10 +35,7 @@ static int fail(const char *what)
 	return 0;
 }
 
-static int chosen(int wanted, int i)
-{
-	return wanted < 0 || wanted == i;
-}
+static int chosen(int wanted, int i) { return wanted < 0 || wanted == i; }
 
 /* --- one cell ----------------------------------------------------------------------------------------------------- */
 

@@ -22,8 +22,8 @@ static lobe_bsdf material_lambert(void)
 #if LOBE_HAS_GGX_CONDUCTOR
 static lobe_bsdf material_ggx_conductor(void)
 {
-	return lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.2f, lobe_metal_eta(LOBE_METAL_GOLD),
-								    lobe_metal_k(LOBE_METAL_GOLD)));
+	return lobe_bsdf_from_ggx_conductor(
+		lobe_ggx_conductor_make(0.3f, 0.2f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
 }
 #endif
 
@@ -43,15 +43,9 @@ static const struct {
 #undef LOBE_X
 };
 
-const char *bench_lobe_name(int lobe)
-{
-	return lobe < BENCH_LOBES ? lobes[lobe].name : "all";
-}
+const char *bench_lobe_name(int lobe) { return lobe < BENCH_LOBES ? lobes[lobe].name : "all"; }
 
-lobe_bsdf bench_lobe_material(int lobe)
-{
-	return lobes[lobe].material();
-}
+lobe_bsdf bench_lobe_material(int lobe) { return lobes[lobe].material(); }
 
 lobe_status bench_scene_create(lobe_scene **out, lobe_device *device, int lobe)
 {
@@ -71,10 +65,7 @@ const char *bench_verb_name(int verb)
 	return names[verb];
 }
 
-int bench_verb_samples(int verb)
-{
-	return verb >= BENCH_SAMPLE;
-}
+int bench_verb_samples(int verb) { return verb >= BENCH_SAMPLE; }
 
 /* --- devices ------------------------------------------------------------------------------------------------------ */
 

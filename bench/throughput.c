@@ -21,8 +21,7 @@ enum { IN_CACHE = 16384 /* elements: at most 56 bytes each, they fit into the se
 
 static void print_row(const bench_plan *plan, const bench_results *results, const bench_result *r)
 {
-	const bench_result *small =
-		plan->size_count > 1 ? bench_find(results, r->lobe, r->verb, r->device, 1) : NULL;
+	const bench_result *small = plan->size_count > 1 ? bench_find(results, r->lobe, r->verb, r->device, 1) : NULL;
 	printf("%-18s %-9s %-10s %9zu %5zu %9.1f %8.1f %9.2f %6zu %8.1f", bench_lobe_name(r->lobe),
 	       bench_verb_name(r->verb), plan->devices[r->device].label, r->n, plan->runs, r->rate.median,
 	       bench_spread(&r->rate), 1e3 / r->rate.median, r->bytes, r->copy_share);

@@ -42,10 +42,7 @@ bench_stats bench_stats_of(double *values, size_t n)
 	return s;
 }
 
-double bench_spread(const bench_stats *s)
-{
-	return 100.0 * (s->quarter3 - s->quarter1) / s->median;
-}
+double bench_spread(const bench_stats *s) { return 100.0 * (s->quarter3 - s->quarter1) / s->median; }
 
 /* --- copy --------------------------------------------------------------------------------------------------------- */
 

@@ -31,8 +31,7 @@ int main(void)
 	const lobe_bsdf materials[2] = {
 		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD),
 								     lobe_metal_k(LOBE_METAL_GOLD))),
-		lobe_bsdf_from_ggx_dielectric(
-			lobe_ggx_dielectric_make(0.2f, 0.2f, lobe_glass_eta(LOBE_GLASS_BK7)))};
+		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.2f, 0.2f, lobe_glass_eta(LOBE_GLASS_BK7)))};
 	static float in[6][N], out[7][N], first[7][N];
 	static uint32_t material[N], event[N];
 	lobe_batch batch = {.count = N, .material = material, .sample_pdf = out[6], .event = event};

@@ -12,7 +12,7 @@ int main(void)
 	/* Parameters in, prepared constants out; alpha is roughness squared. */
 	const float roughness = 0.4f, alpha = roughness * roughness;
 	const lobe_ggx_conductor gold =
-	    lobe_ggx_conductor_make(alpha, alpha, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
+		lobe_ggx_conductor_make(alpha, alpha, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
 	/* Directions live in the shading frame: z is the normal, all point away from the surface. */
 	const lobe_vec3 u = lobe_vec3_make(0.3f, 0.6f, 0.5f);
 

@@ -47,11 +47,11 @@ SHARED(
 
 /* The kernel: a lobe's prepared constants are a plain struct, passed as it is. */
 static const char kernel_source[] =
-    "__kernel void albedo(lobe_ggx_conductor metal, uint samples, __global lobe_rgb *result)\n"
-    "{\n"
-    "	const uint i = get_global_id(0);\n"
-    "	result[i] = own_albedo(metal, (lobe_real)i / 40.0f, samples);\n"
-    "}\n";
+	"__kernel void albedo(lobe_ggx_conductor metal, uint samples, __global lobe_rgb *result)\n"
+	"{\n"
+	"	const uint i = get_global_id(0);\n"
+	"	result[i] = own_albedo(metal, (lobe_real)i / 40.0f, samples);\n"
+	"}\n";
 
 static void check(cl_int code, const char *what)
 {
@@ -64,7 +64,7 @@ static void check(cl_int code, const char *what)
 int main(void)
 {
 	const lobe_ggx_conductor gold =
-	    lobe_ggx_conductor_make(0.25f, 0.25f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
+		lobe_ggx_conductor_make(0.25f, 0.25f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
 	const lobe_bsdf material = lobe_bsdf_from_ggx_conductor(gold);
 	const cl_uint samples = SAMPLES;
 	const size_t angles = ANGLES;

@@ -47,19 +47,18 @@ lobe_status lobe_device_open(lobe_device **out, const char *name)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_open: %s is NULL", out ? "name" : "out");
 	if (parse_name(name, "native", &number, &given)) {
 		if (given && (number < 1 || number > 1024))
-			return lobe_fail(LOBE_ERROR_DEVICE, "lobe_device_open: \"%s\": threads must be 1 to 1024", name);
+			return lobe_fail(LOBE_ERROR_DEVICE, "lobe_device_open: \"%s\": threads must be 1 to 1024",
+					 name);
 		return lobe_native_open(out, number);
 	}
 	if (parse_name(name, "opencl", &number, &given))
 		return lobe_opencl_open(out, number);
 	return lobe_fail(LOBE_ERROR_DEVICE,
-			 "lobe_device_open: no device \"%s\"; names are native, native:THREADS, opencl, opencl:INDEX", name);
+			 "lobe_device_open: no device \"%s\"; names are native, native:THREADS, opencl, opencl:INDEX",
+			 name);
 }
 
-const char *lobe_device_name(const lobe_device *device)
-{
-	return device ? device->name : "";
-}
+const char *lobe_device_name(const lobe_device *device) { return device ? device->name : ""; }
 
 void lobe_device_close(lobe_device *device)
 {
@@ -72,10 +71,7 @@ void lobe_device_close(lobe_device *device)
 /* Exact arithmetic; see backend/opencl.h. */
 #define BASE_OPTIONS "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
 
-const char *lobe_opencl_options(const lobe_scene *scene)
-{
-	return scene ? scene->options : BASE_OPTIONS;
-}
+const char *lobe_opencl_options(const lobe_scene *scene) { return scene ? scene->options : BASE_OPTIONS; }
 
 /* BASE_OPTIONS and a -DLOBE_HAS_<LOBE>=1 for each lobe with a material. NULL: out of memory. */
 static char *make_options(const lobe_scene *scene)
@@ -122,7 +118,8 @@ static int fill_scene(lobe_scene *scene, const lobe_bsdf *materials)
 		scene->slot[i] = index == LOBE_INDEX_NONE ? none++ : (uint32_t)scene->table[index].count++;
 	}
 	for (int i = 0; i < LOBE_COUNT; i++)
-		if (scene->table[i].count && !(scene->table[i].params = malloc(scene->table[i].count * lobe_param_size[i])))
+		if (scene->table[i].count &&
+		    !(scene->table[i].params = malloc(scene->table[i].count * lobe_param_size[i])))
 			return 0;
 	for (size_t i = 0; i < scene->count; i++) {
 		const uint32_t index = scene->index[i];
@@ -195,8 +192,8 @@ static lobe_status check_presence(const lobe_job *job, int sample, const char *c
 	for (int first = 0; first <= (sample ? 3 : 0); first += 3)
 		for (int i = first; i < first + 3; i++)
 			if (!job->out[i] != !job->out[first])
-				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s is NULL but batch->%s is not", call,
-						 out_names[sample][job->out[i] ? first : i],
+				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s is NULL but batch->%s is not",
+						 call, out_names[sample][job->out[i] ? first : i],
 						 out_names[sample][job->out[i] ? i : first]);
 	return LOBE_OK;
 }
@@ -227,8 +224,8 @@ static lobe_status check_host(const lobe_scene *scene, const lobe_job *job, int 
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->count is %zu, too many for memory", call, job->count);
 	for (int i = 0; i < count; i++)
 		if ((uintptr_t)array[i] % 4)
-			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s = %p is not aligned to 4 bytes", call, name[i],
-					 array[i]);
+			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s = %p is not aligned to 4 bytes", call,
+					 name[i], array[i]);
 	for (int i = 0; i < LOBE_OUT_COUNT; i++)
 		for (int k = i + 1; k < count; k++)
 			if (overlap(array[i], array[k], job->count * 4))
@@ -237,8 +234,8 @@ static lobe_status check_host(const lobe_scene *scene, const lobe_job *job, int 
 	const uint32_t *material = job->material;
 	for (size_t i = 0; material && i < job->count; i++)
 		if (material[i] >= scene->count)
-			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->material[%zu] = %u, but the scene has %zu", call, i,
-					 material[i], scene->count);
+			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->material[%zu] = %u, but the scene has %zu",
+					 call, i, material[i], scene->count);
 	return LOBE_OK;
 }
 
@@ -314,15 +311,18 @@ static lobe_status run_device(lobe_scene *scene, lobe_job *job, int sample, cons
 	for (int i = 0; i < LOBE_OUT_COUNT; i++) {
 		for (int k = i + 1; job->out[i] && k < LOBE_OUT_COUNT; k++)
 			if (job->out[i] == job->out[k])
-				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s is the same buffer as batch->%s",
-						 call, out_names[sample][i], out_names[sample][k]);
+				return lobe_fail(LOBE_ERROR_ARGUMENT,
+						 "%s: output batch->%s is the same buffer as batch->%s", call,
+						 out_names[sample][i], out_names[sample][k]);
 		for (int k = 0; job->out[i] && k < LOBE_IN_COUNT; k++)
 			if (job->out[i] == job->in[k])
-				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s is the same buffer as batch->%s",
-						 call, out_names[sample][i], in_names[sample][k]);
+				return lobe_fail(LOBE_ERROR_ARGUMENT,
+						 "%s: output batch->%s is the same buffer as batch->%s", call,
+						 out_names[sample][i], in_names[sample][k]);
 		if (job->out[i] && job->out[i] == job->material)
-			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s is the same buffer as batch->material",
-					 call, out_names[sample][i]);
+			return lobe_fail(LOBE_ERROR_ARGUMENT,
+					 "%s: output batch->%s is the same buffer as batch->material", call,
+					 out_names[sample][i]);
 	}
 	job->verb = sample ? sample_verb(job) : eval_verb(job);
 	return scene->device->ops->run_device(scene, job);

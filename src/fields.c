@@ -13,8 +13,14 @@ typedef struct {
 	double min, max;
 } field;
 
-#define REAL(lobe, member, min, max) {#member, offsetof(lobe_##lobe, member), 0, min, max}
-#define UINT(lobe, member, max)      {#member, offsetof(lobe_##lobe, member), 1, 0, max}
+#define REAL(lobe, member, min, max)                                                                                   \
+	{                                                                                                              \
+#member, offsetof(lobe_##lobe, member), 0, min, max                                                    \
+	}
+#define UINT(lobe, member, max)                                                                                        \
+	{                                                                                                              \
+#member, offsetof(lobe_##lobe, member), 1, 0, max                                                      \
+	}
 #define RGB(lobe, member, min, max)                                                                                    \
 	REAL(lobe, member.r, min, max), REAL(lobe, member.g, min, max), REAL(lobe, member.b, min, max)
 

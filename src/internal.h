@@ -27,7 +27,7 @@ enum {
 #define LOBE_VERB(NAME, name) LOBE_VERB_##NAME,
 	LOBE_VERBS(LOBE_VERB)
 #undef LOBE_VERB
-	LOBE_VERB_COUNT
+		LOBE_VERB_COUNT
 };
 
 /* Arrays of a batch in one order, whatever the verb. */
@@ -63,9 +63,9 @@ static inline int lobe_verb_is_sample(int verb) { return verb == LOBE_VERB_SAMPL
 /* One backend. Each function but close and scene_destroy sets the error message when it fails. */
 typedef struct {
 	void (*close)(lobe_device *device);
-	lobe_status (*scene_create)(lobe_scene *scene); /* sets scene->state */
-	void (*scene_destroy)(lobe_scene *scene);       /* after a successful scene_create only */
-	lobe_status (*run)(lobe_scene *scene, const lobe_job *job);       /* host arrays; returns when they are written */
+	lobe_status (*scene_create)(lobe_scene *scene);             /* sets scene->state */
+	void (*scene_destroy)(lobe_scene *scene);                   /* after a successful scene_create only */
+	lobe_status (*run)(lobe_scene *scene, const lobe_job *job); /* host arrays; returns when they are written */
 	lobe_status (*run_device)(lobe_scene *scene, const lobe_job *job); /* cl_mem arrays; NULL for a native device */
 } lobe_device_ops;
 

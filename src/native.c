@@ -125,10 +125,7 @@ static void *spare_output(scratch *s, int k, int sample)
 }
 
 /* Element i of an array of 4-byte elements, whatever their type. */
-static unsigned char *element(void *array, size_t i)
-{
-	return (unsigned char *)array + 4 * i;
-}
+static unsigned char *element(void *array, size_t i) { return (unsigned char *)array + 4 * i; }
 
 /* One lobe, elements in place: [first, first + n) in blocks where something is gathered or thrown away. */
 static void run_in_place(const native_job *j, scratch *s, int lobe, const void *table, const uint32_t *material,
@@ -236,10 +233,7 @@ static lobe_status native_scene_create(lobe_scene *scene)
 	return LOBE_OK;
 }
 
-static void native_scene_destroy(lobe_scene *scene)
-{
-	(void)scene;
-}
+static void native_scene_destroy(lobe_scene *scene) { (void)scene; }
 
 static void native_close(lobe_device *base)
 {

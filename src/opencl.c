@@ -17,10 +17,7 @@ typedef struct {
 	cl_device_id id;
 } entry;
 
-static lobe_status out_of_memory(void)
-{
-	return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
-}
+static lobe_status out_of_memory(void) { return lobe_fail(LOBE_ERROR_MEMORY, "out of memory"); }
 
 /* Appends a platform's devices to list[0..count). */
 static lobe_status list_platform(const lobe_cl_functions *cl, cl_platform_id platform, entry **list, size_t *count)

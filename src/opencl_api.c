@@ -50,15 +50,9 @@ static void load(void)
 		dlclose(library);
 }
 
-const lobe_cl_functions *lobe_cl_load(void)
-{
-	return pthread_once(&once, load) == 0 && loaded ? &functions : NULL;
-}
+const lobe_cl_functions *lobe_cl_load(void) { return pthread_once(&once, load) == 0 && loaded ? &functions : NULL; }
 
-const char *lobe_cl_load_error(void)
-{
-	return load_error;
-}
+const char *lobe_cl_load_error(void) { return load_error; }
 
 const char *lobe_cl_error_name(cl_int error)
 {
@@ -75,8 +69,8 @@ const char *lobe_cl_error_name(cl_int error)
 
 lobe_status lobe_cl_fail(const char *call, cl_int error)
 {
-	const int memory =
-	    error == CL_OUT_OF_RESOURCES || error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY;
+	const int memory = error == CL_OUT_OF_RESOURCES || error == CL_MEM_OBJECT_ALLOCATION_FAILURE ||
+			   error == CL_OUT_OF_HOST_MEMORY;
 	return lobe_fail(memory ? LOBE_ERROR_MEMORY : LOBE_ERROR_OPENCL, "%s failed: %s (%d)", call,
 			 lobe_cl_error_name(error), (int)error);
 }

@@ -84,7 +84,7 @@ enum {
 	LOBE_CL_ERRORS(LOBE_CL_ERROR)
 #undef LOBE_CL_ERROR
 
-	CL_FALSE = 0,
+		CL_FALSE = 0,
 	CL_TRUE = 1,
 
 	CL_PLATFORM_NAME = 0x0902,
@@ -112,20 +112,20 @@ enum {
 #define CL_DEVICE_TYPE_ALL ((cl_bitfield)0xFFFFFFFF)
 
 /* CL_DEVICE_SINGLE_FP_CONFIG */
-#define CL_FP_DENORM ((cl_bitfield)1 << 0)
-#define CL_FP_INF_NAN ((cl_bitfield)1 << 1)
-#define CL_FP_ROUND_TO_NEAREST ((cl_bitfield)1 << 2)
+#define CL_FP_DENORM                        ((cl_bitfield)1 << 0)
+#define CL_FP_INF_NAN                       ((cl_bitfield)1 << 1)
+#define CL_FP_ROUND_TO_NEAREST              ((cl_bitfield)1 << 2)
 #define CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ((cl_bitfield)1 << 7)
 
 #define CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE ((cl_bitfield)1 << 0)
 
-#define CL_MEM_READ_WRITE ((cl_bitfield)1 << 0)
-#define CL_MEM_WRITE_ONLY ((cl_bitfield)1 << 1)
-#define CL_MEM_READ_ONLY ((cl_bitfield)1 << 2)
-#define CL_MEM_USE_HOST_PTR ((cl_bitfield)1 << 3)
+#define CL_MEM_READ_WRITE    ((cl_bitfield)1 << 0)
+#define CL_MEM_WRITE_ONLY    ((cl_bitfield)1 << 1)
+#define CL_MEM_READ_ONLY     ((cl_bitfield)1 << 2)
+#define CL_MEM_USE_HOST_PTR  ((cl_bitfield)1 << 3)
 #define CL_MEM_COPY_HOST_PTR ((cl_bitfield)1 << 5)
 
-#define CL_MAP_READ ((cl_bitfield)1 << 0)
+#define CL_MAP_READ                    ((cl_bitfield)1 << 0)
 #define CL_MAP_WRITE_INVALIDATE_REGION ((cl_bitfield)1 << 2)
 
 /* Every function used: LOBE_CL_FUNCTION(result, name, arguments) */
@@ -147,11 +147,10 @@ enum {
 	LOBE_CL_FUNCTION(cl_int, clReleaseCommandQueue, (cl_command_queue))                                            \
 	LOBE_CL_FUNCTION(cl_program, clCreateProgramWithSource,                                                        \
 			 (cl_context, cl_uint, const char **, const size_t *, cl_int *))                               \
-	LOBE_CL_FUNCTION(cl_int, clBuildProgram,                                                                       \
-			 (cl_program, cl_uint, const cl_device_id *, const char *, void (*)(cl_program, void *),       \
-			  void *))                                                                                     \
-	LOBE_CL_FUNCTION(cl_int, clGetProgramBuildInfo,                                                                \
-			 (cl_program, cl_device_id, cl_uint, size_t, void *, size_t *))                                \
+	LOBE_CL_FUNCTION(                                                                                              \
+		cl_int, clBuildProgram,                                                                                \
+		(cl_program, cl_uint, const cl_device_id *, const char *, void (*)(cl_program, void *), void *))       \
+	LOBE_CL_FUNCTION(cl_int, clGetProgramBuildInfo, (cl_program, cl_device_id, cl_uint, size_t, void *, size_t *)) \
 	LOBE_CL_FUNCTION(cl_int, clReleaseProgram, (cl_program))                                                       \
 	LOBE_CL_FUNCTION(cl_kernel, clCreateKernel, (cl_program, const char *, cl_int *))                              \
 	LOBE_CL_FUNCTION(cl_int, clSetKernelArg, (cl_kernel, cl_uint, size_t, const void *))                           \
@@ -161,9 +160,9 @@ enum {
 	LOBE_CL_FUNCTION(cl_mem, clCreateBuffer, (cl_context, cl_bitfield, size_t, void *, cl_int *))                  \
 	LOBE_CL_FUNCTION(cl_int, clGetMemObjectInfo, (cl_mem, cl_uint, size_t, void *, size_t *))                      \
 	LOBE_CL_FUNCTION(cl_int, clReleaseMemObject, (cl_mem))                                                         \
-	LOBE_CL_FUNCTION(cl_int, clEnqueueReadBuffer,                                                                  \
-			 (cl_command_queue, cl_mem, cl_bool, size_t, size_t, void *, cl_uint, const cl_event *,        \
-			  cl_event *))                                                                                 \
+	LOBE_CL_FUNCTION(                                                                                              \
+		cl_int, clEnqueueReadBuffer,                                                                           \
+		(cl_command_queue, cl_mem, cl_bool, size_t, size_t, void *, cl_uint, const cl_event *, cl_event *))    \
 	LOBE_CL_FUNCTION(cl_int, clEnqueueWriteBuffer,                                                                 \
 			 (cl_command_queue, cl_mem, cl_bool, size_t, size_t, const void *, cl_uint, const cl_event *,  \
 			  cl_event *))                                                                                 \

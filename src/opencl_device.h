@@ -69,10 +69,7 @@ typedef struct {
 	int wanted[LOBE_OUT_COUNT];
 } lobe_cl_shading;
 
-static inline size_t lobe_cl_smaller(size_t a, size_t b)
-{
-	return a < b ? a : b;
-}
+static inline size_t lobe_cl_smaller(size_t a, size_t b) { return a < b ? a : b; }
 
 /* opencl_program.c */
 lobe_status lobe_cl_scene_create(lobe_scene *scene);

@@ -73,10 +73,7 @@ static void put(arguments *a, const void *value, size_t size)
 		a->error = a->device->cl->clSetKernelArg(a->kernel, a->next++, size, value);
 }
 
-static void put_mem(arguments *a, cl_mem mem)
-{
-	put(a, &mem, sizeof mem);
-}
+static void put_mem(arguments *a, cl_mem mem) { put(a, &mem, sizeof mem); }
 
 static void put_ulong(arguments *a, size_t value)
 {
@@ -98,8 +95,8 @@ static lobe_status launch(arguments *a, size_t local, size_t first, size_t last)
 		put_ulong(a, first + count);
 		if (a->error != CL_SUCCESS)
 			return lobe_cl_fail("clSetKernelArg", a->error);
-		error =
-		    cl->clEnqueueNDRangeKernel(a->device->queue, a->kernel, 1, NULL, &global, &local, 0, NULL, NULL);
+		error = cl->clEnqueueNDRangeKernel(a->device->queue, a->kernel, 1, NULL, &global, &local, 0, NULL,
+						   NULL);
 		if (error != CL_SUCCESS)
 			return lobe_cl_fail("clEnqueueNDRangeKernel", error);
 		first += count;

@@ -216,7 +216,4 @@ lobe_status lobe_cl_scene_create(lobe_scene *scene)
 }
 
 /* Commands that still use the tables hold references of their own. */
-void lobe_cl_scene_destroy(lobe_scene *scene)
-{
-	release_state((lobe_cl_device *)scene->device, scene->state);
-}
+void lobe_cl_scene_destroy(lobe_scene *scene) { release_state((lobe_cl_device *)scene->device, scene->state); }

@@ -34,10 +34,7 @@ static const char *output_name(int verb, int o)
 /* --- batches of host arrays --- */
 
 /* Elements [first, first + count) of a job's array. */
-static void *at(const void *array, size_t first)
-{
-	return (void *)((const char *)array + 4 * first);
-}
+static void *at(const void *array, size_t first) { return (void *)((const char *)array + 4 * first); }
 
 /* The host's memory as a buffer, without a copy. */
 static lobe_status wrap(lobe_cl_device *device, cl_bitfield access, void *array, size_t count, cl_mem *out)
@@ -54,8 +51,8 @@ static lobe_status copy_in(lobe_cl_device *device, lobe_cl_buffer *buffer, const
 	if (status != LOBE_OK)
 		return status;
 	*out = buffer->mem;
-	error =
-	    device->cl->clEnqueueWriteBuffer(device->queue, buffer->mem, CL_FALSE, 0, 4 * count, array, 0, NULL, NULL);
+	error = device->cl->clEnqueueWriteBuffer(device->queue, buffer->mem, CL_FALSE, 0, 4 * count, array, 0, NULL,
+						 NULL);
 	return error == CL_SUCCESS ? LOBE_OK : lobe_cl_fail("clEnqueueWriteBuffer", error);
 }
 
@@ -106,7 +103,7 @@ static lobe_status map_output(lobe_cl_device *device, cl_mem mem, size_t count)
 static lobe_status read_output(lobe_cl_device *device, cl_mem mem, void *array, size_t count)
 {
 	const cl_int error =
-	    device->cl->clEnqueueReadBuffer(device->queue, mem, CL_FALSE, 0, 4 * count, array, 0, NULL, NULL);
+		device->cl->clEnqueueReadBuffer(device->queue, mem, CL_FALSE, 0, 4 * count, array, 0, NULL, NULL);
 	return error == CL_SUCCESS ? LOBE_OK : lobe_cl_fail("clEnqueueReadBuffer", error);
 }
 
@@ -262,8 +259,8 @@ static lobe_status read_materials(const lobe_cl_shading *b, size_t count, uint32
 		;
 	if (i < count) {
 		const lobe_status status =
-		    lobe_fail(LOBE_ERROR_ARGUMENT, "batch->material[%lu] is %lu, but the scene has %lu materials",
-			      (unsigned long)i, (unsigned long)material[i], (unsigned long)b->scene->count);
+			lobe_fail(LOBE_ERROR_ARGUMENT, "batch->material[%lu] is %lu, but the scene has %lu materials",
+				  (unsigned long)i, (unsigned long)material[i], (unsigned long)b->scene->count);
 		free(material);
 		return status;
 	}

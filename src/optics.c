@@ -27,22 +27,10 @@ static uint32_t find(const char *const *names, uint32_t count, const char *name)
 	return i;
 }
 
-const char *lobe_metal_name(uint32_t metal)
-{
-	return metal < LOBE_METAL_COUNT ? metal_names[metal] : NULL;
-}
+const char *lobe_metal_name(uint32_t metal) { return metal < LOBE_METAL_COUNT ? metal_names[metal] : NULL; }
 
-uint32_t lobe_metal_find(const char *name)
-{
-	return find(metal_names, LOBE_METAL_COUNT, name);
-}
+uint32_t lobe_metal_find(const char *name) { return find(metal_names, LOBE_METAL_COUNT, name); }
 
-const char *lobe_glass_name(uint32_t glass)
-{
-	return glass < LOBE_GLASS_COUNT ? glass_names[glass] : NULL;
-}
+const char *lobe_glass_name(uint32_t glass) { return glass < LOBE_GLASS_COUNT ? glass_names[glass] : NULL; }
 
-uint32_t lobe_glass_find(const char *name)
-{
-	return find(glass_names, LOBE_GLASS_COUNT, name);
-}
+uint32_t lobe_glass_find(const char *name) { return find(glass_names, LOBE_GLASS_COUNT, name); }

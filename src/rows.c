@@ -32,12 +32,12 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 		const word w = words[(which) + (k)];                                                                   \
 		memcpy((char *)&p + 4 * (k), &w, 4);                                                                   \
 	}
-#define FETCH_4(k, which)                                                                                              \
-	FETCH_1(k, which) FETCH_1(k + 1, which) FETCH_1(k + 2, which) FETCH_1(k + 3, which)
+#define FETCH_4(k, which) FETCH_1(k, which) FETCH_1(k + 1, which) FETCH_1(k + 2, which) FETCH_1(k + 3, which)
 #define FETCH(which)                                                                                                   \
 	PARAMS p;                                                                                                      \
-	FETCH_4(0, which) FETCH_4(4, which) FETCH_4(8, which) FETCH_4(12, which)                                       \
-	FETCH_4(16, which) FETCH_4(20, which) FETCH_4(24, which) FETCH_4(28, which)
+	FETCH_4(0, which)                                                                                              \
+	FETCH_4(4, which) FETCH_4(8, which) FETCH_4(12, which) FETCH_4(16, which) FETCH_4(20, which)                   \
+		FETCH_4(24, which) FETCH_4(28, which)
 
 /* clang's cost model would leave a cheap lobe's gathers scalar on SSE2. */
 #ifdef __clang__
@@ -50,11 +50,11 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	const word *restrict words, const uint32_t *restrict slot, size_t n, const float *restrict ox,                 \
 		const float *restrict oy, const float *restrict oz, const float *restrict ix,                          \
 		const float *restrict iy, const float *restrict iz
-#define INPUT_ARGS      table, slot, n, in[0], in[1], in[2], in[3], in[4], in[5]
-#define WO               lobe_vec3_make(ox[i], oy[i], oz[i])
-#define WI_OR_U          lobe_vec3_make(ix[i], iy[i], iz[i])
-#define F_OUTPUTS        float *restrict fr, float *restrict fg, float *restrict fb
-#define WI_OUTPUTS       float *restrict wx, float *restrict wy, float *restrict wz, uint32_t *restrict event
+#define INPUT_ARGS table, slot, n, in[0], in[1], in[2], in[3], in[4], in[5]
+#define WO         lobe_vec3_make(ox[i], oy[i], oz[i])
+#define WI_OR_U    lobe_vec3_make(ix[i], iy[i], iz[i])
+#define F_OUTPUTS  float *restrict fr, float *restrict fg, float *restrict fb
+#define WI_OUTPUTS float *restrict wx, float *restrict wy, float *restrict wz, uint32_t *restrict event
 #define STORE_3(x, y, z, v, a, b, c)                                                                                   \
 	do {                                                                                                           \
 		x[i] = (v).a;                                                                                          \
@@ -66,7 +66,8 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	NOINLINE void name##_loop(INPUTS, F_OUTPUTS)                                                                   \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
+		{                                                                                                      \
 			FETCH(which)                                                                                   \
 			const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                                \
 			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
@@ -81,7 +82,8 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	NOINLINE void name##_loop(INPUTS, float *restrict pdf)                                                         \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
+		{                                                                                                      \
 			FETCH(which)                                                                                   \
 			pdf[i] = CALL(_pdf)(p, WO, WI_OR_U);                                                           \
 		}                                                                                                      \
@@ -95,7 +97,8 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	NOINLINE void name##_loop(INPUTS, F_OUTPUTS, float *restrict pdf)                                              \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
+		{                                                                                                      \
 			FETCH(which)                                                                                   \
 			const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                                \
 			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
@@ -111,7 +114,8 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS, F_OUTPUTS, float *restrict pdf)                                  \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
+		{                                                                                                      \
 			FETCH(which)                                                                                   \
 			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \
 			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \
@@ -130,7 +134,8 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS)                                                                  \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		VECTORISE for (size_t i = 0; i < n; i++) {                                                             \
+		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
+		{                                                                                                      \
 			FETCH(which)                                                                                   \
 			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \
 			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \

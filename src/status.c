@@ -28,10 +28,7 @@ const char *lobe_status_string(lobe_status status)
 	return "unknown status";
 }
 
-const char *lobe_error_message(void)
-{
-	return message;
-}
+const char *lobe_error_message(void) { return message; }
 
 void lobe_set_error_message(const char *format, ...)
 {

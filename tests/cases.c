@@ -13,10 +13,10 @@ typedef struct {
 } recipe;
 
 static const recipe lambert_recipes[] = {
-    {"lambert grey", {0.5, 0.5, 0.5}},
-    {"lambert white", {1, 1, 1}},
-    {"lambert ochre", {0.8, 0.4, 0.1}},
-    {"lambert black", {0, 0, 0}},
+	{"lambert grey", {0.5, 0.5, 0.5}},
+	{"lambert white", {1, 1, 1}},
+	{"lambert ochre", {0.8, 0.4, 0.1}},
+	{"lambert black", {0, 0, 0}},
 };
 
 #define LOBE_GLASS(NAME, name, n)
@@ -38,66 +38,63 @@ static const double metals[METALS][6] = {
 #define GREY(n, k)  n, n, n, k, k, k
 
 static const recipe ggx_conductor_recipes[] = {
-    {"gold .0001", {1e-4, 1e-4, METAL(GOLD)}},
-    {"silver .001", {1e-3, 1e-3, METAL(SILVER)}},
-    {"copper .01", {0.01, 0.01, METAL(COPPER)}},
-    {"aluminium .1", {0.1, 0.1, METAL(ALUMINIUM)}},
-    {"gold .25", {0.25, 0.25, METAL(GOLD)}},
-    {"chromium .5", {0.5, 0.5, METAL(CHROMIUM)}},
-    {"tungsten 1", {1, 1, METAL(TUNGSTEN)}},
-    {"copper .05:.4", {0.05, 0.4, METAL(COPPER)}},
-    {"titanium .5:.1", {0.5, 0.1, METAL(TITANIUM)}},
-    {"platinum .0001:.1", {1e-4, 0.1, METAL(PLATINUM)}},
-    {"iron .0001:1", {1e-4, 1, METAL(IRON)}},
-    {"nickel 1:.0001", {1, 1e-4, METAL(NICKEL)}},
-    {"mirror .1", {0.1, 0.1, GREY(1e-3, 1000)}},
-    {"mirror .5", {0.5, 0.5, GREY(1e-3, 1000)}},
-    {"mirror 1", {1, 1, GREY(1e-3, 1000)}},
-    {"index 1.5 front .3", {0.3, 0.3, GREY(1.5, 0)}},
-    {"index 1000 front .3", {0.3, 0.3, GREY(1000, 0)}},
-    {"index 1000+1000i .3", {0.3, 0.3, GREY(1000, 1000)}},
+	{"gold .0001", {1e-4, 1e-4, METAL(GOLD)}},
+	{"silver .001", {1e-3, 1e-3, METAL(SILVER)}},
+	{"copper .01", {0.01, 0.01, METAL(COPPER)}},
+	{"aluminium .1", {0.1, 0.1, METAL(ALUMINIUM)}},
+	{"gold .25", {0.25, 0.25, METAL(GOLD)}},
+	{"chromium .5", {0.5, 0.5, METAL(CHROMIUM)}},
+	{"tungsten 1", {1, 1, METAL(TUNGSTEN)}},
+	{"copper .05:.4", {0.05, 0.4, METAL(COPPER)}},
+	{"titanium .5:.1", {0.5, 0.1, METAL(TITANIUM)}},
+	{"platinum .0001:.1", {1e-4, 0.1, METAL(PLATINUM)}},
+	{"iron .0001:1", {1e-4, 1, METAL(IRON)}},
+	{"nickel 1:.0001", {1, 1e-4, METAL(NICKEL)}},
+	{"mirror .1", {0.1, 0.1, GREY(1e-3, 1000)}},
+	{"mirror .5", {0.5, 0.5, GREY(1e-3, 1000)}},
+	{"mirror 1", {1, 1, GREY(1e-3, 1000)}},
+	{"index 1.5 front .3", {0.3, 0.3, GREY(1.5, 0)}},
+	{"index 1000 front .3", {0.3, 0.3, GREY(1000, 0)}},
+	{"index 1000+1000i .3", {0.3, 0.3, GREY(1000, 1000)}},
 };
 
 static const recipe ggx_dielectric_recipes[] = {
-    {"glass .1", {0.1, 0.1, 1.5, RADIANCE}},
-    {"glass .3 importance", {0.3, 0.3, 1.5, IMPORTANCE}},
-    {"glass .5", {0.5, 0.5, 1.5, RADIANCE}},
-    {"glass 1", {1, 1, 1.5, RADIANCE}},
-    {"bubble .2", {0.2, 0.2, 1 / 1.5, RADIANCE}},
-    {"bubble .3 importance", {0.3, 0.3, 1 / 1.5, IMPORTANCE}},
-    {"eta 1/3 .3", {0.3, 0.3, THIRD, RADIANCE}},
-    {"eta 1/3 1 importance", {1, 1, THIRD, IMPORTANCE}},
-    {"glass .05:.4 importance", {0.05, 0.4, 1.5, IMPORTANCE}},
-    {"water .4:.05", {0.4, 0.05, 1.3334, RADIANCE}},
-    {"glass .0001", {1e-4, 1e-4, 1.5, RADIANCE}},
-    {"glass .001 importance", {1e-3, 1e-3, 1.5, IMPORTANCE}},
-    {"diamond .01", {0.01, 0.01, 2.4175, RADIANCE}},
-    {"glass .0001:1", {1e-4, 1, 1.5, RADIANCE}},
-    {"eta 2 1:.0001", {1, 1e-4, 2, RADIANCE}},
-    {"eta 1000 .1", {0.1, 0.1, 1000, IMPORTANCE}},
-    {"eta 1000 .5", {0.5, 0.5, 1000, RADIANCE}},
-    {"eta 1/1000 .5", {0.5, 0.5, 1e-3, RADIANCE}},
-    {"eta 1/1000 .001", {1e-3, 1e-3, 1e-3, RADIANCE}},
-    {"eta 1000 .0005", {5e-4, 5e-4, 1000, IMPORTANCE}},
-    {"eta 1 .1", {0.1, 0.1, 1, RADIANCE}},
-    {"eta 1 1", {1, 1, 1, IMPORTANCE}},
-    {"eta 1+1e-6 .0001", {1e-4, 1e-4, 1 + 1e-6, RADIANCE}},
-    {"eta 1+1e-6 .1", {0.1, 0.1, 1 + 1e-6, RADIANCE}},
-    {"eta 1-1e-6 .1", {0.1, 0.1, 1 - 1e-6, IMPORTANCE}},
-    {"eta 1+1e-6 1", {1, 1, 1 + 1e-6, RADIANCE}},
-    {"eta 1.0001 .001", {1e-3, 1e-3, 1.0001, RADIANCE}},
-    {"eta 1.0001 .1", {0.1, 0.1, 1.0001, RADIANCE}},
-    {"eta .9999 .5", {0.5, 0.5, 0.9999, RADIANCE}},
-    {"eta 1.001 .001", {1e-3, 1e-3, 1.001, IMPORTANCE}},
-    {"eta 1.001 .1", {0.1, 0.1, 1.001, RADIANCE}},
-    {"eta 1.001 .5 importance", {0.5, 0.5, 1.001, IMPORTANCE}},
-    {"eta .999 .3", {0.3, 0.3, 0.999, RADIANCE}},
+	{"glass .1", {0.1, 0.1, 1.5, RADIANCE}},
+	{"glass .3 importance", {0.3, 0.3, 1.5, IMPORTANCE}},
+	{"glass .5", {0.5, 0.5, 1.5, RADIANCE}},
+	{"glass 1", {1, 1, 1.5, RADIANCE}},
+	{"bubble .2", {0.2, 0.2, 1 / 1.5, RADIANCE}},
+	{"bubble .3 importance", {0.3, 0.3, 1 / 1.5, IMPORTANCE}},
+	{"eta 1/3 .3", {0.3, 0.3, THIRD, RADIANCE}},
+	{"eta 1/3 1 importance", {1, 1, THIRD, IMPORTANCE}},
+	{"glass .05:.4 importance", {0.05, 0.4, 1.5, IMPORTANCE}},
+	{"water .4:.05", {0.4, 0.05, 1.3334, RADIANCE}},
+	{"glass .0001", {1e-4, 1e-4, 1.5, RADIANCE}},
+	{"glass .001 importance", {1e-3, 1e-3, 1.5, IMPORTANCE}},
+	{"diamond .01", {0.01, 0.01, 2.4175, RADIANCE}},
+	{"glass .0001:1", {1e-4, 1, 1.5, RADIANCE}},
+	{"eta 2 1:.0001", {1, 1e-4, 2, RADIANCE}},
+	{"eta 1000 .1", {0.1, 0.1, 1000, IMPORTANCE}},
+	{"eta 1000 .5", {0.5, 0.5, 1000, RADIANCE}},
+	{"eta 1/1000 .5", {0.5, 0.5, 1e-3, RADIANCE}},
+	{"eta 1/1000 .001", {1e-3, 1e-3, 1e-3, RADIANCE}},
+	{"eta 1000 .0005", {5e-4, 5e-4, 1000, IMPORTANCE}},
+	{"eta 1 .1", {0.1, 0.1, 1, RADIANCE}},
+	{"eta 1 1", {1, 1, 1, IMPORTANCE}},
+	{"eta 1+1e-6 .0001", {1e-4, 1e-4, 1 + 1e-6, RADIANCE}},
+	{"eta 1+1e-6 .1", {0.1, 0.1, 1 + 1e-6, RADIANCE}},
+	{"eta 1-1e-6 .1", {0.1, 0.1, 1 - 1e-6, IMPORTANCE}},
+	{"eta 1+1e-6 1", {1, 1, 1 + 1e-6, RADIANCE}},
+	{"eta 1.0001 .001", {1e-3, 1e-3, 1.0001, RADIANCE}},
+	{"eta 1.0001 .1", {0.1, 0.1, 1.0001, RADIANCE}},
+	{"eta .9999 .5", {0.5, 0.5, 0.9999, RADIANCE}},
+	{"eta 1.001 .001", {1e-3, 1e-3, 1.001, IMPORTANCE}},
+	{"eta 1.001 .1", {0.1, 0.1, 1.001, RADIANCE}},
+	{"eta 1.001 .5 importance", {0.5, 0.5, 1.001, IMPORTANCE}},
+	{"eta .999 .3", {0.3, 0.3, 0.999, RADIANCE}},
 };
 
-static void describe_lambert(test_case *c)
-{
-	c->flags = CASE_TWO_SIDED | CASE_RECIPROCAL;
-}
+static void describe_lambert(test_case *c) { c->flags = CASE_TWO_SIDED | CASE_RECIPROCAL; }
 
 static void describe_ggx_conductor(test_case *c)
 {
@@ -146,17 +143,11 @@ size_t case_count(void)
 	return count;
 }
 
-const test_case *case_at(size_t i)
-{
-	return i < case_count() ? &cases[i] : NULL;
-}
+const test_case *case_at(size_t i) { return i < case_count() ? &cases[i] : NULL; }
 
 static const double cosines[] = {1.0, 0.95, 0.7, 0.4, 0.1, 0.01, 1e-3, 1e-4, 1e-6};
 
-size_t case_wo_count(const test_case *c)
-{
-	return COUNT(cosines) * (c->flags & CASE_TWO_SIDED ? 2u : 1u);
-}
+size_t case_wo_count(const test_case *c) { return COUNT(cosines) * (c->flags & CASE_TWO_SIDED ? 2u : 1u); }
 
 lobe_vec3 case_wo(size_t i)
 {

@@ -7,16 +7,10 @@
 
 #include "lobe/shading.h"
 
-static lobe_rgb make_rgb(const double *p)
-{
-	return lobe_rgb_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]);
-}
+static lobe_rgb make_rgb(const double *p) { return lobe_rgb_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]); }
 
 /* r, g, b */
-static lobe_lambert make_lambert(const double *p)
-{
-	return lobe_lambert_make(make_rgb(p));
-}
+static lobe_lambert make_lambert(const double *p) { return lobe_lambert_make(make_rgb(p)); }
 
 /* alpha_x, alpha_y, n.rgb, k.rgb */
 static lobe_ggx_conductor make_ggx_conductor(const double *p)
@@ -28,7 +22,7 @@ static lobe_ggx_conductor make_ggx_conductor(const double *p)
 static lobe_ggx_dielectric make_ggx_dielectric(const double *p)
 {
 	return lobe_ggx_dielectric_transport(
-	    lobe_ggx_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]), (lobe_uint)p[3]);
+		lobe_ggx_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]), (lobe_uint)p[3]);
 }
 
 static lobe_bsdf make_bsdf(uint32_t kind, const double *p)

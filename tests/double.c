@@ -7,10 +7,7 @@
 #error "compile tests/double.c with -DLOBE_DOUBLE=1"
 #endif
 
-static lobe_vec3 vec3(const double v[3])
-{
-	return lobe_vec3_make(v[0], v[1], v[2]);
-}
+static lobe_vec3 vec3(const double v[3]) { return lobe_vec3_make(v[0], v[1], v[2]); }
 
 void double_eval(uint32_t kind, const double *parameter, const double wo[3], const double wi[3], double f[3])
 {

@@ -93,8 +93,8 @@ static void extreme_directions(float w[DIRECTIONS][3])
 
 inputs inputs_extreme(void)
 {
-	static const float number[NUMBERS] = {0.0f,	       0x1p-149f, 0x1p-24f, 0.25f,
-					      0x1.fffffep-2f, 0.5f,	  0.75f,    0x1.fffffep-1f};
+	static const float number[NUMBERS] = {0.0f,           0x1p-149f, 0x1p-24f, 0.25f,
+					      0x1.fffffep-2f, 0.5f,      0.75f,    0x1.fffffep-1f};
 	float w[DIRECTIONS][3];
 	extreme_directions(w);
 	/* Every wo with every u, and, in the same elements, with each wi in turn. */

@@ -42,58 +42,19 @@ static inline double reference_sincos_2pi(double u, int cosine)
 	return quadrant & 2 ? -v : v;
 }
 
-static inline double reference_sin_2pi(double u)
-{
-	return reference_sincos_2pi(u, 0);
-}
-static inline double reference_cos_2pi(double u)
-{
-	return reference_sincos_2pi(u, 1);
-}
-static inline double reference_sin(double x)
-{
-	return sin(x);
-}
-static inline double reference_cos(double x)
-{
-	return cos(x);
-}
-static inline double reference_tan(double x)
-{
-	return tan(x);
-}
-static inline double reference_asin(double x)
-{
-	return asin(x);
-}
-static inline double reference_acos(double x)
-{
-	return acos(x);
-}
-static inline double reference_atan(double x)
-{
-	return atan(x);
-}
-static inline double reference_exp(double x)
-{
-	return exp(x);
-}
-static inline double reference_exp2(double x)
-{
-	return exp2(x);
-}
-static inline double reference_log(double x)
-{
-	return log(x);
-}
-static inline double reference_log2(double x)
-{
-	return log2(x);
-}
-static inline double reference_erf(double x)
-{
-	return erf(x);
-}
+static inline double reference_sin_2pi(double u) { return reference_sincos_2pi(u, 0); }
+static inline double reference_cos_2pi(double u) { return reference_sincos_2pi(u, 1); }
+static inline double reference_sin(double x) { return sin(x); }
+static inline double reference_cos(double x) { return cos(x); }
+static inline double reference_tan(double x) { return tan(x); }
+static inline double reference_asin(double x) { return asin(x); }
+static inline double reference_acos(double x) { return acos(x); }
+static inline double reference_atan(double x) { return atan(x); }
+static inline double reference_exp(double x) { return exp(x); }
+static inline double reference_exp2(double x) { return exp2(x); }
+static inline double reference_log(double x) { return log(x); }
+static inline double reference_log2(double x) { return log2(x); }
+static inline double reference_erf(double x) { return erf(x); }
 
 /* Halley's method on erf or erfc, from the closed formula of Winitzki; near 0 the first terms of the series. */
 static inline double reference_erfinv(double x)

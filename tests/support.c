@@ -12,10 +12,7 @@ uint32_t test_bits(uint32_t stream, uint64_t i)
 	return philox4x32(counter, key).v[i & 3];
 }
 
-float test_uniform(uint32_t stream, uint64_t i)
-{
-	return (float)(test_bits(stream, i) >> 8) * 0x1p-24f;
-}
+float test_uniform(uint32_t stream, uint64_t i) { return (float)(test_bits(stream, i) >> 8) * 0x1p-24f; }
 
 void test_u3(uint32_t stream, uint64_t i, float u[3])
 {
@@ -50,7 +47,4 @@ double test_ulp(float a, double exact)
 	return fabs((double)a - exact) / ldexp(1.0, e - 24 < -149 ? -149 : e - 24);
 }
 
-int test_long(void)
-{
-	return getenv("LOBE_TEST_LONG") != NULL;
-}
+int test_long(void) { return getenv("LOBE_TEST_LONG") != NULL; }

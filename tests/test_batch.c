@@ -91,8 +91,9 @@ static void test_device_names(void)
 
 static void test_device_refusals(void)
 {
-	static const char *const bad[] = {"",	    "gpu",	"native:",   "native:0", "native:1025", "native:x", "native2",
-					  "native:-1", "opencl:",	"opencl:1x", "openclx",	 "native:99999999999999999999"};
+	static const char *const bad[] = {
+		"",        "gpu",       "native:", "native:0",  "native:1025", "native:x",
+		"native2", "native:-1", "opencl:", "opencl:1x", "openclx",     "native:99999999999999999999"};
 	lobe_device *d = device;
 	size_t count = 77;
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -160,9 +161,11 @@ static void test_bad_parameters(void)
 	const float bad[] = {NAN, INFINITY, -INFINITY, -1.0f, 1e9f};
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
 		refuse(lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0, bad[i], 0))), "reflectance.g");
-		refuse(lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.1f, 0.1f, lobe_rgb_make(1, 1, bad[i]), one)),
+		refuse(lobe_bsdf_from_ggx_conductor(
+			       lobe_ggx_conductor_make(0.1f, 0.1f, lobe_rgb_make(1, 1, bad[i]), one)),
 		       "eta.b");
-		refuse(lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.1f, 0.1f, one, lobe_rgb_make(bad[i], 1, 1))),
+		refuse(lobe_bsdf_from_ggx_conductor(
+			       lobe_ggx_conductor_make(0.1f, 0.1f, one, lobe_rgb_make(bad[i], 1, 1))),
 		       "k.r");
 		refuse(lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.1f, 0.1f, bad[i])), "eta");
 	}
@@ -187,7 +190,8 @@ static void test_clamped_alpha(void)
 		lobe_scene *s;
 		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, &m, 1));
 		lobe_scene_destroy(s);
-		TEST_ASSERT_TRUE(m.as.ggx_dielectric.ggx.alpha_x >= LOBE_ALPHA_MIN && m.as.ggx_dielectric.ggx.alpha_x <= 1);
+		TEST_ASSERT_TRUE(m.as.ggx_dielectric.ggx.alpha_x >= LOBE_ALPHA_MIN &&
+				 m.as.ggx_dielectric.ggx.alpha_x <= 1);
 	}
 	lobe_scene_destroy(NULL);
 }
@@ -202,7 +206,8 @@ static void test_materials_are_copied(void)
 	memset(&m, 0xff, sizeof m);
 	b.material = NULL;
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
-	const lobe_vec3 wo = lobe_vec3_make(in[0][0], in[1][0], in[2][0]), wi = lobe_vec3_make(in[3][0], in[4][0], in[5][0]);
+	const lobe_vec3 wo = lobe_vec3_make(in[0][0], in[1][0], in[2][0]),
+			wi = lobe_vec3_make(in[3][0], in[4][0], in[5][0]);
 	TEST_ASSERT_EQUAL_FLOAT(lobe_lambert_eval(lobe_lambert_make(lobe_rgb_make(1, 1, 1)), wo, wi).r, out[0][0]);
 	lobe_scene_destroy(s);
 }
@@ -301,8 +306,8 @@ static void test_overlap(void)
 static void test_results_and_subsets(void)
 {
 	lobe_bsdf m[3] = {lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.2f, 0.5f, 0.8f))),
-			  lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD),
-									       lobe_metal_k(LOBE_METAL_GOLD))),
+			  lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(
+				  0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD))),
 			  lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.1f, 1.5f))};
 	for (int mask = 1; mask < 16; mask++) {
 		lobe_batch b = good_batch();
@@ -325,9 +330,10 @@ static void test_results_and_subsets(void)
 			const lobe_vec3 u = lobe_vec3_make(in[6][i], in[7][i], in[8][i]);
 			const lobe_rgb f = lobe_bsdf_eval(m[material[i]], wo, wi);
 			const lobe_sample s = lobe_bsdf_sample(m[material[i]], wo, u);
-			const float expected[11] = {f.r,      f.g,      f.b,	    lobe_bsdf_pdf(m[material[i]], wo, wi),
-						    s.wi.x,   s.wi.y,   s.wi.z,	    s.weight.r,
-						    s.weight.g, s.weight.b, s.pdf};
+			const float expected[11] = {
+				f.r,        f.g,        f.b,    lobe_bsdf_pdf(m[material[i]], wo, wi),
+				s.wi.x,     s.wi.y,     s.wi.z, s.weight.r,
+				s.weight.g, s.weight.b, s.pdf};
 			const int wanted[11] = {mask & 1, mask & 1, mask & 1, mask & 2, mask & 1, mask & 1,
 						mask & 1, mask & 2, mask & 2, mask & 2, mask & 4};
 			for (int k = 0; k < 11; k++)

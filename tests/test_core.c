@@ -21,14 +21,8 @@
 
 static char outside[128];
 
-void setUp(void)
-{
-	outside[0] = '\0';
-}
-void tearDown(void)
-{
-	TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside);
-}
+void setUp(void) { outside[0] = '\0'; }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside); }
 
 /* Prints a measured maximum beside its bound; tearDown fails the test when one is outside, after all were printed. */
 static void measured(const char *what, double value, double bound)
@@ -46,10 +40,7 @@ static float from_bits(uint32_t b)
 	return x;
 }
 
-static double larger(double a, double b)
-{
-	return a > b ? a : b;
-}
+static double larger(double a, double b) { return a > b ? a : b; }
 
 /* --- lobe_fma ----------------------------------------------------------------------------------------------------- */
 
@@ -59,16 +50,10 @@ typedef struct {
 	float a, b, c;
 } fma_case;
 
-static int same(float x, float y)
-{
-	return (isnan(x) && isnan(y)) || test_float_bits(x) == test_float_bits(y);
-}
+static int same(float x, float y) { return (isnan(x) && isnan(y)) || test_float_bits(x) == test_float_bits(y); }
 
 /* What one would write first: right but where the rounding to double makes a tie of what is none. */
-static float fma_naive(float a, float b, float c)
-{
-	return (float)((double)a * (double)b + (double)c);
-}
+static float fma_naive(float a, float b, float c) { return (float)((double)a * (double)b + (double)c); }
 
 static uint32_t naive_failures;
 
@@ -202,10 +187,7 @@ static long double dot_exact(lobe_vec3 a, lobe_vec3 b)
 	       (long double)a.z * (long double)b.z;
 }
 
-static double length(lobe_vec3 v)
-{
-	return (double)sqrtl(dot_exact(v, v));
-}
+static double length(lobe_vec3 v) { return (double)sqrtl(dot_exact(v, v)); }
 
 static double distance(lobe_vec3 a, lobe_vec3 b)
 {
@@ -213,10 +195,7 @@ static double distance(lobe_vec3 a, lobe_vec3 b)
 	return sqrt(x * x + y * y + z * z);
 }
 
-static float symmetric(uint32_t stream, uint64_t i)
-{
-	return 2.0f * test_uniform(stream, i) - 1.0f;
-}
+static float symmetric(uint32_t stream, uint64_t i) { return 2.0f * test_uniform(stream, i) - 1.0f; }
 
 static void test_dot(void)
 {
@@ -224,8 +203,8 @@ static void test_dot(void)
 	for (uint64_t i = 0; i < VECTOR_CASES; i++) {
 		const lobe_vec3 a = {symmetric(10, 3 * i), symmetric(10, 3 * i + 1), symmetric(10, 3 * i + 2)};
 		const lobe_vec3 b = {symmetric(11, 3 * i), symmetric(11, 3 * i + 1), symmetric(11, 3 * i + 2)};
-		const double size =
-		    fabs((double)a.x * (double)b.x) + fabs((double)a.y * (double)b.y) + fabs((double)a.z * (double)b.z);
+		const double size = fabs((double)a.x * (double)b.x) + fabs((double)a.y * (double)b.y) +
+				    fabs((double)a.z * (double)b.z);
 		const double error = fabs((double)((long double)lobe_dot(a, b) - dot_exact(a, b)));
 		if (size > 0.0)
 			worst = larger(worst, error / size);
@@ -266,9 +245,9 @@ static void test_cross(void)
 		const lobe_vec3 n = lobe_cross(a, b);
 		const double size = length(n);
 		if (size > 0.0)
-			worst = larger(
-			    worst,
-			    larger(fabs((double)dot_exact(a, n)), fabs((double)dot_exact(b, n)) / length(b)) / size);
+			worst = larger(worst, larger(fabs((double)dot_exact(a, n)),
+						     fabs((double)dot_exact(b, n)) / length(b)) /
+						      size);
 	}
 	/* 1.5 ulp <= 3 U of each component: |n.a| <= 3 U sum |n_i a_i| <= 3 U |n| |a|. */
 	measured("cross: |cos| of the angle to its factors", worst, 3.01 * U);
@@ -444,8 +423,8 @@ static void test_frame_tangent(void)
 		/* Any length in the domain, down to an angle of 1e-6 to the normal. */
 		const float near = ldexpf(1.0f, -(int)(i % 21));
 		const float size = (float)pow(10.0, 18.0 * (double)test_uniform(28, i) - 9.0);
-		const lobe_vec3 t =
-		    lobe_vec3_scale(lobe_vec3_fma(near, direction(29, i), i & 1 ? n : lobe_vec3_make(0, 0, 0)), size);
+		const lobe_vec3 t = lobe_vec3_scale(
+			lobe_vec3_fma(near, direction(29, i), i & 1 ? n : lobe_vec3_make(0, 0, 0)), size);
 		const double len = length(t);
 		if (len < 1e-9 || len > 1e9 || (double)(dot_exact(n, t) * dot_exact(n, t)) > len * len * (1.0 - 1e-12))
 			continue;
@@ -466,7 +445,7 @@ static void test_frame_tangent(void)
 	/* The nearest direction in the plane is on the side of the given tangent. */
 	measured("tangent frame: -t.tangent", -least_along, 0.0);
 	const lobe_frame f =
-	    lobe_frame_from_normal_tangent(lobe_vec3_make(0.0f, 0.0f, 1.0f), lobe_vec3_make(0.0f, 2.0f, 5.0f));
+		lobe_frame_from_normal_tangent(lobe_vec3_make(0.0f, 0.0f, 1.0f), lobe_vec3_make(0.0f, 2.0f, 5.0f));
 	TEST_ASSERT_TRUE(f.t.x == 0.0f && f.t.y == 1.0f && f.t.z == 0.0f);
 	TEST_ASSERT_TRUE(f.b.x == -1.0f && f.b.y == 0.0f && f.b.z == 0.0f);
 }
@@ -488,10 +467,7 @@ static float rounded(float x)
 	return memory;
 }
 
-static lobe_vec3 rounded_vec3(lobe_vec3 v)
-{
-	return lobe_vec3_make(rounded(v.x), rounded(v.y), rounded(v.z));
-}
+static lobe_vec3 rounded_vec3(lobe_vec3 v) { return lobe_vec3_make(rounded(v.x), rounded(v.y), rounded(v.z)); }
 
 static lobe_vec3 chained_by_steps(float d, lobe_vec3 along, lobe_vec3 o, lobe_vec3 c)
 {

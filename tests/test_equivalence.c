@@ -18,7 +18,7 @@ typedef struct {
 	float *array[OUTPUTS];
 } results;
 
-static const char *const output_name[OUTPUTS] = {"f.r",  "f.g",	     "f.b",	 "pdf",	     "wi.x", "wi.y",
+static const char *const output_name[OUTPUTS] = {"f.r",  "f.g",      "f.b",      "pdf",      "wi.x", "wi.y",
 						 "wi.z", "weight.r", "weight.g", "weight.b", "spdf", "event"};
 
 static results results_alloc(size_t count)
@@ -101,8 +101,9 @@ static void shade_scalar(inputs in, results out, const uint32_t *material)
 		const lobe_vec3 u = lobe_vec3_make(in.array[6][i], in.array[7][i], in.array[8][i]);
 		const lobe_rgb f = lobe_bsdf_eval(b, wo, wi);
 		const lobe_sample s = lobe_bsdf_sample(b, wo, u);
-		const float values[11] = {f.r,	  f.g,	  f.b,	      lobe_bsdf_pdf(b, wo, wi), s.wi.x, s.wi.y,
-					  s.wi.z, s.weight.r, s.weight.g, s.weight.b,		s.pdf};
+		const float values[11] = {f.r,        f.g,        f.b,    lobe_bsdf_pdf(b, wo, wi),
+					  s.wi.x,     s.wi.y,     s.wi.z, s.weight.r,
+					  s.weight.g, s.weight.b, s.pdf};
 		for (int k = 0; k < 11; k++)
 			out.array[k][i] = values[k];
 		memcpy(&out.array[11][i], &s.event, 4);
@@ -268,10 +269,7 @@ static void test_extreme_inputs(void)
 #undef LOBE_X
 }
 
-static void test_mixed_lobes(void)
-{
-	TEST_ASSERT_EQUAL(0, random_inputs(LOBE_KIND_NONE, 300007, 77));
-}
+static void test_mixed_lobes(void) { TEST_ASSERT_EQUAL(0, random_inputs(LOBE_KIND_NONE, 300007, 77)); }
 
 /* Odd sizes: shorter than a vector, around blocks and chunks, primes. */
 static void test_sizes(void)

@@ -15,14 +15,8 @@
 
 static char outside[128];
 
-void setUp(void)
-{
-	outside[0] = '\0';
-}
-void tearDown(void)
-{
-	TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside);
-}
+void setUp(void) { outside[0] = '\0'; }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside); }
 
 /* Prints a measured maximum beside its bound; tearDown fails the test when one is outside, after all were printed. */
 static void measured(const char *what, double value, double bound)
@@ -33,10 +27,7 @@ static void measured(const char *what, double value, double bound)
 		snprintf(outside, sizeof outside, "%s: %g > %g", what, value, bound);
 }
 
-static double larger(double a, double b)
-{
-	return a > b ? a : b;
-}
+static double larger(double a, double b) { return a > b ? a : b; }
 
 /* A maximum and the arguments where it was found. */
 typedef struct {
@@ -193,15 +184,9 @@ static double edge_rounding(float eta)
 	return e < 1.0 ? 3.0 * U * fmin((1.0 - e) * (1.0 + e), e * e) : 0.0;
 }
 
-static double edge_adds(float eta, exact_fresnel e)
-{
-	return edge_rounding(eta) / (2.0 * e.edge);
-}
+static double edge_adds(float eta, exact_fresnel e) { return edge_rounding(eta) / (2.0 * e.edge); }
 
-static double beyond(double error, double allowed)
-{
-	return error > allowed ? error - allowed : 0.0;
-}
+static double beyond(double error, double allowed) { return error > allowed ? error - allowed : 0.0; }
 
 static void test_dielectric_thinner(void)
 {
@@ -367,10 +352,7 @@ static vec to_double(lobe_vec3 v)
 	return d;
 }
 
-static double dot(vec a, vec b)
-{
-	return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+static double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 static vec cross(vec a, vec b)
 {
@@ -384,10 +366,7 @@ static vec combine(double s, vec a, double t, vec b)
 	return c;
 }
 
-static double length(vec a)
-{
-	return sqrt(dot(a, a));
-}
+static double length(vec a) { return sqrt(dot(a, a)); }
 
 static lobe_vec3 direction(uint32_t stream, uint64_t i)
 {
@@ -417,8 +396,8 @@ static int make_ray(uint64_t i, ray *r)
 		w = lobe_vec3_scale(w, -1.0f);
 	r->w = w;
 	r->c = lobe_dot(w, r->m);
-	r->eta =
-	    i % 5 == 0 ? index_of((int)(i / 5 % INDICES)) : (float)pow(4.0, 2.0 * (double)test_uniform(13, i) - 1.0);
+	r->eta = i % 5 == 0 ? index_of((int)(i / 5 % INDICES))
+			    : (float)pow(4.0, 2.0 * (double)test_uniform(13, i) - 1.0);
 	return r->c > 0.0f;
 }
 
@@ -684,7 +663,7 @@ static void check_schlick(float eta, double expected, double digit)
 	for (int i = 0; i <= 100000; i++) {
 		const float c = (float)i * 1e-5f;
 		const double error =
-		    fabs((double)lobe_fresnel_schlick(c, root * root) - exact_dielectric(c, eta).reflectance);
+			fabs((double)lobe_fresnel_schlick(c, root * root) - exact_dielectric(c, eta).reflectance);
 		keep_worst(&w, error, c, eta);
 	}
 	char what[80];
@@ -732,21 +711,21 @@ static void test_metals_normal_incidence(void)
 static void test_metals_look(void)
 {
 	const lobe_rgb gold =
-	    lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
+		lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
 	TEST_ASSERT_TRUE_MESSAGE(gold.r > gold.g && gold.g > gold.b && gold.r > 0.9f && gold.b < 0.5f,
 				 "gold is yellow");
 	const lobe_rgb copper =
-	    lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_COPPER), lobe_metal_k(LOBE_METAL_COPPER));
+		lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_COPPER), lobe_metal_k(LOBE_METAL_COPPER));
 	TEST_ASSERT_TRUE_MESSAGE(copper.r > 0.9f && copper.r > 1.4f * copper.g && copper.g > copper.b, "copper is red");
 	const lobe_rgb silver =
-	    lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_SILVER), lobe_metal_k(LOBE_METAL_SILVER));
+		lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_SILVER), lobe_metal_k(LOBE_METAL_SILVER));
 	TEST_ASSERT_TRUE_MESSAGE(silver.r > 0.95f && silver.g > 0.95f && silver.b > 0.95f, "silver is white");
-	const lobe_rgb aluminium =
-	    lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_ALUMINIUM), lobe_metal_k(LOBE_METAL_ALUMINIUM));
+	const lobe_rgb aluminium = lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_ALUMINIUM),
+							      lobe_metal_k(LOBE_METAL_ALUMINIUM));
 	TEST_ASSERT_TRUE_MESSAGE(aluminium.r > 0.88f && aluminium.r < 0.94f && aluminium.b > aluminium.r,
 				 "aluminium is blue-white");
-	const lobe_rgb tungsten =
-	    lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_TUNGSTEN), lobe_metal_k(LOBE_METAL_TUNGSTEN));
+	const lobe_rgb tungsten = lobe_fresnel_conductor_rgb(1.0f, lobe_metal_eta(LOBE_METAL_TUNGSTEN),
+							     lobe_metal_k(LOBE_METAL_TUNGSTEN));
 	TEST_ASSERT_TRUE_MESSAGE(tungsten.r < 0.6f && tungsten.b > 0.4f, "tungsten is grey");
 }
 

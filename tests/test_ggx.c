@@ -14,14 +14,8 @@
 
 static char outside[128];
 
-void setUp(void)
-{
-	outside[0] = '\0';
-}
-void tearDown(void)
-{
-	TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside);
-}
+void setUp(void) { outside[0] = '\0'; }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside); }
 
 /* Prints a measured maximum beside its bound; tearDown fails the test when one is outside, after all were printed. */
 static void measured(const char *what, double value, double bound)
@@ -32,16 +26,10 @@ static void measured(const char *what, double value, double bound)
 		snprintf(outside, sizeof outside, "%s: %g > %g", what, value, bound);
 }
 
-static double larger(double a, double b)
-{
-	return a > b ? a : b;
-}
+static double larger(double a, double b) { return a > b ? a : b; }
 
 /* A NaN is larger than everything. */
-static double worse(double a, double b)
-{
-	return isnan(b) ? HUGE_VAL : larger(a, b);
-}
+static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
 
 static const float widths[] = {1e-4f, 3e-4f, 1e-3f, 1e-2f, 0.1f, 0.3f, 1.0f};
 #define WIDTHS (sizeof widths / sizeof widths[0])
@@ -334,15 +322,15 @@ static void test_masking(void)
 				worst_t = worse(worst_t, fabs((double)(((long double)lobe_ggx_t(d, o) - t) / t)));
 				worst_g1 = worse(worst_g1, fabs((double)((long double)g1(d, o) * (1.0L + lo) - 1.0L)));
 				const float g2_over_cos =
-				    lobe_ggx_g2_over_cos(o.z, lobe_ggx_t(d, o), w.z, lobe_ggx_t(d, w));
+					lobe_ggx_g2_over_cos(o.z, lobe_ggx_t(d, o), w.z, lobe_ggx_t(d, w));
 				const long double g2 = (long double)g2_over_cos * (long double)o.z;
 				worst_g2 = worse(worst_g2, fabs((double)(g2 * (1.0L + lo + li) - 1.0L)));
 				const double least = fmin((double)g1(d, o), (double)g1(d, w));
 				excess = worse(excess, (double)g2 / least - 1.0);
 				if (lo > 0.0L)
 					worst_printed =
-					    worse(worst_printed,
-						  fabs((double)((long double)g1_from_lambda(d, o) / lo - 1.0L)));
+						worse(worst_printed,
+						      fabs((double)((long double)g1_from_lambda(d, o) / lo - 1.0L)));
 			}
 		}
 	}
@@ -370,8 +358,8 @@ static void test_stretch_invariance(void)
 				const double x = (double)w.x / (double)widths[i], y = (double)w.y / (double)widths[j];
 				const double len2 = x * x + y * y + (double)w.z * (double)w.z, len = sqrt(len2);
 				const lobe_vec3 m = {(float)(x / len), (float)(y / len), (float)((double)w.z / len)};
-				const double e =
-				    (double)lobe_ggx_d(one, m) / ((double)widths[i] * (double)widths[j] * len2 * len2);
+				const double e = (double)lobe_ggx_d(one, m) /
+						 ((double)widths[i] * (double)widths[j] * len2 * len2);
 				/* Underflow of m.z in the stretched space says nothing. */
 				if (m.z > 0.0f)
 					worst_d = worse(worst_d, fabs((double)lobe_ggx_d(d, w) / e - 1.0));
@@ -484,10 +472,11 @@ static void test_visible_chi_square(void)
 		float ax, ay;
 		double cosine, phi;
 	} cases[] = {
-	    {1.0f, 1.0f, 1.0, 0.0},   {1.0f, 1.0f, 0.5, 1.0},    {1.0f, 1.0f, 1e-3, 2.0},  {0.3f, 0.3f, 0.7, 4.0},
-	    {0.3f, 0.3f, 1e-3, 5.0},  {0.1f, 0.1f, 0.2, 0.3},    {0.01f, 0.01f, 0.9, 3.0}, {0.01f, 0.01f, 1e-3, 3.5},
-	    {1e-4f, 1e-4f, 0.3, 2.2}, {1e-4f, 1e-4f, 1e-6, 0.1}, {0.5f, 0.05f, 0.6, 0.9},  {0.05f, 0.5f, 1e-3, 1.2},
-	    {1e-4f, 1.0f, 0.4, 1.5},  {1.0f, 1e-4f, 1e-3, 0.2},  {0.8f, 0.3f, 1e-6, 2.8},
+		{1.0f, 1.0f, 1.0, 0.0},    {1.0f, 1.0f, 0.5, 1.0},    {1.0f, 1.0f, 1e-3, 2.0},
+		{0.3f, 0.3f, 0.7, 4.0},    {0.3f, 0.3f, 1e-3, 5.0},   {0.1f, 0.1f, 0.2, 0.3},
+		{0.01f, 0.01f, 0.9, 3.0},  {0.01f, 0.01f, 1e-3, 3.5}, {1e-4f, 1e-4f, 0.3, 2.2},
+		{1e-4f, 1e-4f, 1e-6, 0.1}, {0.5f, 0.05f, 0.6, 0.9},   {0.05f, 0.5f, 1e-3, 1.2},
+		{1e-4f, 1.0f, 0.4, 1.5},   {1.0f, 1e-4f, 1e-3, 0.2},  {0.8f, 0.3f, 1e-6, 2.8},
 	};
 	const size_t n = sizeof cases / sizeof cases[0];
 	/* Sidak: all cases together reject a right sampler in 1 of 100 sets of random numbers (ours are fixed). */

@@ -12,10 +12,7 @@ void tearDown(void) {}
 
 #define ULP 0x1p-23
 
-static lobe_vec3 vec3(const float v[3])
-{
-	return lobe_vec3_make(v[0], v[1], v[2]);
-}
+static lobe_vec3 vec3(const float v[3]) { return lobe_vec3_make(v[0], v[1], v[2]); }
 
 static void test_every_lobe_has_cases(void)
 {
@@ -32,10 +29,7 @@ static void test_every_lobe_has_cases(void)
 	TEST_ASSERT_NULL(case_at(case_count()));
 }
 
-static double component(lobe_rgb c, int k)
-{
-	return (double)(k == 0 ? c.r : k == 1 ? c.g : c.b);
-}
+static double component(lobe_rgb c, int k) { return (double)(k == 0 ? c.r : k == 1 ? c.g : c.b); }
 
 static int all_zero(lobe_sample s)
 {
@@ -75,7 +69,7 @@ static void check_sample(const test_case *c, lobe_vec3 wo, lobe_vec3 u, tally *t
 		const lobe_rgb f = lobe_bsdf_eval(c->bsdf, wo, s.wi);
 		t->deltas++;
 		t->pdf_differs +=
-		    pdf != 0.0f || f.r != 0.0f || f.g != 0.0f || f.b != 0.0f || !(s.pdf > 0.0f && s.pdf <= 1.0f);
+			pdf != 0.0f || f.r != 0.0f || f.g != 0.0f || f.b != 0.0f || !(s.pdf > 0.0f && s.pdf <= 1.0f);
 	} else {
 		t->pdf_differs += test_float_bits(pdf) != test_float_bits(s.pdf) || !(s.pdf > 0.0f);
 	}
@@ -145,15 +139,9 @@ static void test_event_bits_tell_what_happened(void)
 	TEST_ASSERT_EQUAL_UINT(0, sweep.wrong_side);
 }
 
-static void test_no_sample_gains_energy(void)
-{
-	TEST_ASSERT_EQUAL_UINT(0, sweep.too_bright);
-}
+static void test_no_sample_gains_energy(void) { TEST_ASSERT_EQUAL_UINT(0, sweep.too_bright); }
 
-static void test_sampled_directions_are_unit(void)
-{
-	TEST_ASSERT_EQUAL_UINT(0, sweep.not_unit);
-}
+static void test_sampled_directions_are_unit(void) { TEST_ASSERT_EQUAL_UINT(0, sweep.not_unit); }
 
 /* Where another renderer's sample and pdf disagree: peer figures are Mitsuba 3.9, 1M samples each. */
 static void test_pdf_agrees_where_peers_disagree(void)
@@ -162,20 +150,21 @@ static void test_pdf_agrees_where_peers_disagree(void)
 		const char *name;
 		double alpha, eta, cos_o, peer;
 	} peers[] = {
-	    {"conductor .0001, cos .001", 1e-4, 0.0, 1e-3, 91.0},
-	    {"conductor .001, cos .001", 1e-3, 0.0, 1e-3, 17.0},
-	    {"dielectric .001 1.0001, cos .7", 1e-3, 1.0001, 0.7, 94.0},
-	    {"dielectric .1 1.0001, cos .7", 0.1, 1.0001, 0.7, 0.4},
+		{"conductor .0001, cos .001", 1e-4, 0.0, 1e-3, 91.0},
+		{"conductor .001, cos .001", 1e-3, 0.0, 1e-3, 17.0},
+		{"dielectric .001 1.0001, cos .7", 1e-3, 1.0001, 0.7, 94.0},
+		{"dielectric .1 1.0001, cos .7", 0.1, 1.0001, 0.7, 0.4},
 	};
 	for (size_t i = 0; i < sizeof peers / sizeof *peers; i++) {
 		const lobe_real a = (lobe_real)peers[i].alpha;
 		const double s = sqrt((1.0 - peers[i].cos_o) * (1.0 + peers[i].cos_o));
 		const lobe_vec3 wo = lobe_vec3_make((float)(0.8 * s), (float)(0.6 * s), (float)peers[i].cos_o);
 		test_case c = {peers[i].name, 0, {0}, {0}, 0, peers[i].alpha, peers[i].alpha, peers[i].eta};
-		c.bsdf = peers[i].eta > 0.0
-			     ? lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(a, a, (lobe_real)peers[i].eta))
-			     : lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(
-				   a, a, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
+		c.bsdf =
+			peers[i].eta > 0.0
+				? lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(a, a, (lobe_real)peers[i].eta))
+				: lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(
+					  a, a, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
 		tally t = {0};
 		for (uint32_t j = 0; j < 1000000u; j++) {
 			float u[3];
@@ -296,9 +285,9 @@ static void test_reciprocity(void)
 				/* Every other pair tests the two transports against each other. */
 				if (!radiance || (j & 2u)) {
 					const lobe_bsdf other =
-					    lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_transport(
-						c->bsdf.as.ggx_dielectric,
-						radiance ? LOBE_TRANSPORT_IMPORTANCE : LOBE_TRANSPORT_RADIANCE));
+						lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_transport(
+							c->bsdf.as.ggx_dielectric, radiance ? LOBE_TRANSPORT_IMPORTANCE
+											    : LOBE_TRANSPORT_RADIANCE));
 					back = lobe_bsdf_eval(other, wi, wo);
 					no = ni = 1.0;
 				}

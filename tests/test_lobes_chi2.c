@@ -126,12 +126,13 @@ static double integrate(const scene *s, quadrature_integrand f, quadrature_integ
 	scene copy = *s;
 	const int kinked = f == reflect_pdf && (s->c->flags & CASE_TRANSMITS) && s->reflect.e < 1.0;
 	quadrature q = {
-	    f, s->reflect.kind == MAP_SPHERE ? NULL : edge, kinked ? reflect_kink : NULL, &copy, 1e-7, 1e-3, 5, 0.0};
+		f,  s->reflect.kind == MAP_SPHERE ? NULL : edge, kinked ? reflect_kink : NULL, &copy, 1e-7, 1e-3, 5,
+		0.0};
 	double sum = 0.0;
 	for (int i = 0; i < SIDE; i++)
 		for (int k = 0; k < SIDE; k++)
-			sum += bins[i * SIDE + k] =
-			    quadrature_box(&q, (double)i / SIDE, (i + 1.0) / SIDE, (double)k / SIDE, (k + 1.0) / SIDE);
+			sum += bins[i * SIDE + k] = quadrature_box(&q, (double)i / SIDE, (i + 1.0) / SIDE,
+								   (double)k / SIDE, (k + 1.0) / SIDE);
 	*error += q.error;
 	return sum;
 }
@@ -296,10 +297,7 @@ static void test_pdf_integrates_to_one_less_what_is_rejected(void)
 	TEST_ASSERT_EQUAL_UINT(0, bad);
 }
 
-static double sidak(void)
-{
-	return -expm1(log1p(-LEVEL) / (double)result_count);
-}
+static double sidak(void) { return -expm1(log1p(-LEVEL) / (double)result_count); }
 
 static void test_samples_follow_the_pdf(void)
 {

@@ -19,10 +19,7 @@ static lobe_vec3 direction(double z, double phi)
 	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
 }
 
-static lobe_vec3 to_vec3(const double v[3])
-{
-	return lobe_vec3_make((float)v[0], (float)v[1], (float)v[2]);
-}
+static lobe_vec3 to_vec3(const double v[3]) { return lobe_vec3_make((float)v[0], (float)v[1], (float)v[2]); }
 
 /* f |cos theta_i| of something, as seen through a map of directions. */
 typedef struct {
@@ -52,23 +49,17 @@ static double reflected_energy(void *context, double x, double y)
 	return area * fmax((double)f.r, fmax((double)f.g, (double)f.b));
 }
 
-static double edge(void *context, double x, double y)
-{
-	return map_edge(&((const view *)context)->map, x, y);
-}
+static double edge(void *context, double x, double y) { return map_edge(&((const view *)context)->map, x, y); }
 
-static double kink(void *context, double x, double y)
-{
-	return map_kink(&((const view *)context)->map, x, y);
-}
+static double kink(void *context, double x, double y) { return map_kink(&((const view *)context)->map, x, y); }
 
 static double over_square(quadrature *q, int side)
 {
 	double sum = 0.0;
 	for (int i = 0; i < side; i++)
 		for (int k = 0; k < side; k++)
-			sum +=
-			    quadrature_box(q, (double)i / side, (i + 1.0) / side, (double)k / side, (k + 1.0) / side);
+			sum += quadrature_box(q, (double)i / side, (i + 1.0) / side, (double)k / side,
+					      (k + 1.0) / side);
 	return sum;
 }
 
@@ -115,7 +106,7 @@ static void test_no_lobe_returns_more_than_it_receives(void)
 			if ((c->flags & CASE_TRANSMITS) && !(c->flags & CASE_DELTA)) {
 				const double index = wo.z > 0.0f ? c->eta : 1.0 / c->eta;
 				const double scale =
-				    c->parameter[3] == (double)LOBE_TRANSPORT_RADIANCE ? index * index : 1.0;
+					c->parameter[3] == (double)LOBE_TRANSPORT_RADIANCE ? index * index : 1.0;
 				e += scale * albedo(&c->bsdf, ggx, wo, MAP_TRANSMIT, c->eta, 1e-6, &error);
 			}
 			n++;
@@ -138,7 +129,7 @@ static void test_furnace_at_alpha_1_is_exact(void)
 	const lobe_ggx one = lobe_ggx_make(1.0f, 1.0f);
 	const lobe_real n = 1e-3f, k = 1000.0f;
 	const lobe_bsdf mirror = lobe_bsdf_from_ggx_conductor(
-	    lobe_ggx_conductor_make(1.0f, 1.0f, lobe_rgb_make(n, n, n), lobe_rgb_make(k, k, k)));
+		lobe_ggx_conductor_make(1.0f, 1.0f, lobe_rgb_make(n, n, n), lobe_rgb_make(k, k, k)));
 	static const double mus[] = {1.0, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.01};
 	double worst_core = 0.0, worst_lobe = 0.0;
 	for (size_t i = 0; i < sizeof mus / sizeof *mus; i++) {
@@ -164,9 +155,9 @@ static void test_furnace_matches_the_reference_table(void)
 	static const double alphas[] = {0.1, 0.25, 0.5, 0.75, 1.0};
 	static const double mus[] = {0.05, 0.1, 0.25, 0.5, 0.75, 1.0};
 	static const double reference[5][6] = {
-	    {0.9118, 0.8835, 0.9216, 0.9692, 0.9831, 0.9883}, {0.9331, 0.8916, 0.8401, 0.8573, 0.8915, 0.9158},
-	    {0.9125, 0.8601, 0.7652, 0.6983, 0.6821, 0.6879}, {0.8806, 0.8107, 0.6802, 0.5646, 0.5014, 0.4639},
-	    {0.8478, 0.7602, 0.5976, 0.4507, 0.3645, 0.3069},
+		{0.9118, 0.8835, 0.9216, 0.9692, 0.9831, 0.9883}, {0.9331, 0.8916, 0.8401, 0.8573, 0.8915, 0.9158},
+		{0.9125, 0.8601, 0.7652, 0.6983, 0.6821, 0.6879}, {0.8806, 0.8107, 0.6802, 0.5646, 0.5014, 0.4639},
+		{0.8478, 0.7602, 0.5976, 0.4507, 0.3645, 0.3069},
 	};
 	double worst = 0.0;
 	for (int i = 0; i < 5; i++)

@@ -11,22 +11,13 @@
 void setUp(void) {}
 void tearDown(void) {}
 
-static lobe_vec3 vec3(const float v[3])
-{
-	return lobe_vec3_make(v[0], v[1], v[2]);
-}
+static lobe_vec3 vec3(const float v[3]) { return lobe_vec3_make(v[0], v[1], v[2]); }
 
 static unsigned long evaluations, samples, kept, bad, not_unit;
 
-static int sound(lobe_real x)
-{
-	return x >= 0.0f && x <= LOBE_REAL_MAX;
-}
+static int sound(lobe_real x) { return x >= 0.0f && x <= LOBE_REAL_MAX; }
 
-static int sound_rgb(lobe_rgb c)
-{
-	return sound(c.r) && sound(c.g) && sound(c.b);
-}
+static int sound_rgb(lobe_rgb c) { return sound(c.r) && sound(c.g) && sound(c.b); }
 
 static void report(const char *what, const char *name, lobe_vec3 wo, lobe_vec3 w)
 {
@@ -160,7 +151,7 @@ static void test_ends_of_the_parameters(void)
 			const float n = indices[(e - 10) % 4], k = e < 14 ? 0.0f : indices[(e - 10) / 4];
 			c.bsdf = e < 10 ? lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(ax, ay, etas[e]))
 					: lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(
-					      ax, ay, lobe_rgb_make(n, 1.0f, n), lobe_rgb_make(k, k, 0.0f)));
+						  ax, ay, lobe_rgb_make(n, 1.0f, n), lobe_rgb_make(k, k, 0.0f)));
 			for (size_t m = 0; m < AWKWARD; m++) {
 				for (uint32_t j = 0; j < 8u; j++)
 					check_sample(&c, awkward(m),
@@ -252,7 +243,7 @@ typedef struct {
 #define RGB_FIELD(lobe, member) FIELD(lobe, member.r, 0), FIELD(lobe, member.g, 1), FIELD(lobe, member.b, 2)
 #define GGX_FIELD(lobe)                                                                                                \
 	FIELD(lobe, ggx.alpha_x, -1), FIELD(lobe, ggx.alpha_y, -1), FIELD(lobe, ggx.inv_alpha_x, -1),                  \
-	    FIELD(lobe, ggx.inv_alpha_y, -1), FIELD(lobe, ggx.norm, -1)
+		FIELD(lobe, ggx.inv_alpha_y, -1), FIELD(lobe, ggx.norm, -1)
 
 static const field fields_lambert[] = {RGB_FIELD(lambert, reflectance)};
 static const field fields_ggx_conductor[] = {GGX_FIELD(ggx_conductor), RGB_FIELD(ggx_conductor, eta),
@@ -319,15 +310,15 @@ static void test_arguments_that_are_no_numbers(void)
 	const lobe_rgb n = lobe_metal_eta(LOBE_METAL_GOLD), k = lobe_metal_k(LOBE_METAL_GOLD);
 	const float nan = NAN;
 	const lobe_bsdf b[] = {
-	    lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(nan, nan, nan))),
-	    lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(nan, 0.5f, n, k)),
-	    lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.5f, nan, n, k)),
-	    lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.5f, 0.5f, lobe_rgb_make(nan, nan, nan), k)),
-	    lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.5f, 0.5f, n, lobe_rgb_make(nan, nan, nan))),
-	    lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(nan, 0.5f, 1.5f)),
-	    lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, nan, 1.5f)),
-	    lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, nan)),
-	    lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, INFINITY)),
+		lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(nan, nan, nan))),
+		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(nan, 0.5f, n, k)),
+		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.5f, nan, n, k)),
+		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.5f, 0.5f, lobe_rgb_make(nan, nan, nan), k)),
+		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.5f, 0.5f, n, lobe_rgb_make(nan, nan, nan))),
+		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(nan, 0.5f, 1.5f)),
+		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, nan, 1.5f)),
+		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, nan)),
+		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, INFINITY)),
 	};
 	unsigned not_zero = 0;
 	for (size_t i = 0; i < sizeof b / sizeof *b; i++)

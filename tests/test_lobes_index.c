@@ -57,7 +57,8 @@ static share shares(double alpha, double eta, double mu, uint32_t stream)
 {
 	const uint32_t n = 20000u;
 	const lobe_ggx_dielectric p = lobe_ggx_dielectric_transport(
-	    lobe_ggx_dielectric_make((lobe_real)alpha, (lobe_real)alpha, (lobe_real)eta), LOBE_TRANSPORT_IMPORTANCE);
+		lobe_ggx_dielectric_make((lobe_real)alpha, (lobe_real)alpha, (lobe_real)eta),
+		LOBE_TRANSPORT_IMPORTANCE);
 	const lobe_vec3 wo = direction(mu, 0.5);
 	share r = {0.0, 0.0, 0.0, p.delta != 0u};
 	for (uint32_t i = 0; i < n; i++) {

@@ -83,7 +83,7 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 	const double cosine = transmits ? oh / size : 0.5 * size;
 	const double g2 = cosine * cosine + (e_view - 1.0) * (e_view + 1.0);
 	const double g2_off =
-	    cosine * cosine * (1.0 + dots) + fabs(e_view * e_view - 1.0) + (o[2] < 0.0 ? e_view * e_view : 0.0);
+		cosine * cosine * (1.0 + dots) + fabs(e_view * e_view - 1.0) + (o[2] < 0.0 ? e_view * e_view : 0.0);
 	/* transmittance goes with g, reflectance with 1 - 4 g/c. */
 	const double tir = e_view < 1.0 ? (transmits ? g2_off / fabs(g2) : g2_off / sqrt(fabs(g2)) / cosine) : 0.0;
 	r.undecided = e_view < 1.0 && fabs(g2) < 4.0 * U * (g2_off + inexact);
@@ -91,7 +91,7 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 	/* 1/eta is rounded, eta is not: from below H = o + i/eta inherits it, and e - 1 too. */
 	if (o[2] < 0.0)
 		r.index =
-		    e_view / fabs(e_view - 1.0) + (transmits ? e_view * (4.0 * slope + 1.0 / oh + 1.0 / ih) : 0.0);
+			e_view / fabs(e_view - 1.0) + (transmits ? e_view * (4.0 * slope + 1.0 / oh + 1.0 / ih) : 0.0);
 	r.input = inexact * ((1.0 + e) * (4.0 * slope + 1.0 / oh + 1.0 / ih) + (e_view < 1.0 ? 1.0 / fabs(g2) : 0.0));
 	return r;
 }
@@ -212,7 +212,7 @@ static void test_rough_glass_against_walter(void)
 		const lobe_real up = 1.05f + 1.95f * u[2], eta = j & 1u ? up : 1.0f / up;
 		const lobe_vec3 wo = lobe_vec3_make(a[0], a[1], a[2]), wi = lobe_vec3_make(b[0], b[1], b[2]);
 		test_case c = {
-		    "random glass", LOBE_KIND_GGX_DIELECTRIC, {0}, {0}, CASE_TWO_SIDED | CASE_TRANSMITS, 0, 0, 0};
+			"random glass", LOBE_KIND_GGX_DIELECTRIC, {0}, {0}, CASE_TWO_SIDED | CASE_TRANSMITS, 0, 0, 0};
 		c.alpha_x = c.parameter[0] = (double)ax;
 		c.alpha_y = c.parameter[1] = (double)ay;
 		c.eta = c.parameter[2] = (double)eta;
@@ -296,8 +296,8 @@ static void test_rough_metal_against_the_textbook(void)
 		const double got[3] = {(double)f.r, (double)f.g, (double)f.b};
 		const conditions k = condition_of(&c, wo, wi, 1.0);
 		for (int m = 0; m < 3; m++) {
-			const double exact =
-			    textbook_rough_metal(c.alpha_x, c.alpha_y, c.parameter[2 + m], c.parameter[5 + m], o, i);
+			const double exact = textbook_rough_metal(c.alpha_x, c.alpha_y, c.parameter[2 + m],
+								  c.parameter[5 + m], o, i);
 			const double off = fabs(got[m] - exact) / exact;
 			const double ratio = off / (U * (1.0 + k.fresnel + k.input));
 			n++;

@@ -93,7 +93,8 @@ static void test_unknown_device(void)
 	TEST_ASSERT_NULL(d);
 }
 
-/* --- arrays that stay on the device --------------------------------------------------------------------------------- */
+/* --- arrays that stay on the device ---------------------------------------------------------------------------------
+ */
 
 typedef struct {
 	cl_context context;
@@ -279,6 +280,39 @@ static void test_buffer_refusals(void)
 	lobe_device_close(d);
 }
 
+/* README's kernel builds as README says. */
+static void test_readme_kernel(void)
+{
+	static char kernel[4096];
+	char line[512];
+	lobe_device *d;
+	cl_context context;
+	cl_device_id id;
+	cl_int error;
+	int inside = 0;
+	FILE *readme = fopen("README.md", "r");
+	TEST_ASSERT_NOT_NULL(readme);
+	while (fgets(line, sizeof line, readme)) {
+		if (strncmp(line, "```", 3) == 0)
+			inside = strncmp(line, "```opencl", 9) == 0;
+		else if (inside)
+			strncat(kernel, line, sizeof kernel - strlen(kernel) - 1);
+	}
+	fclose(readme);
+	TEST_ASSERT_NOT_NULL(strstr(kernel, "__kernel"));
+	const char *sources[2] = {lobe_opencl_source(), kernel};
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, "opencl"));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_cl(d, &context, &id, NULL));
+	cl_program program = cl->clCreateProgramWithSource(context, 2, sources, NULL, &error);
+	TEST_ASSERT_EQUAL(CL_SUCCESS, error);
+	TEST_ASSERT_EQUAL(CL_SUCCESS, cl->clBuildProgram(program, 1, &id, lobe_opencl_options(NULL), NULL, NULL));
+	cl_kernel made = cl->clCreateKernel(program, "frost", &error);
+	TEST_ASSERT_EQUAL(CL_SUCCESS, error);
+	cl->clReleaseKernel(made);
+	cl->clReleaseProgram(program);
+	lobe_device_close(d);
+}
+
 int main(void)
 {
 	setenv("POCL_DEVICES", "pthread basic", 1);
@@ -290,6 +324,7 @@ int main(void)
 		RUN_TEST(test_device_buffers);
 		RUN_TEST(test_own_context);
 		RUN_TEST(test_buffer_refusals);
+		RUN_TEST(test_readme_kernel);
 	}
 	inputs_free(in);
 	return UNITY_END();

@@ -15,18 +15,15 @@
 
 enum { N = 1003 };
 
-static lobe_cl_functions real;	  /* OpenCL itself */
-static lobe_cl_functions *table;  /* what the library calls */
-static const char *failing = "";  /* the call that fails ... */
-static long countdown;		  /* ... when this gets to 0 */
-static cl_int failure;		  /* ... with this code */
-static long live;		  /* objects created and not released */
+static lobe_cl_functions real;   /* OpenCL itself */
+static lobe_cl_functions *table; /* what the library calls */
+static const char *failing = ""; /* the call that fails ... */
+static long countdown;           /* ... when this gets to 0 */
+static cl_int failure;           /* ... with this code */
+static long live;                /* objects created and not released */
 
 /* 1 when this call is the one to fail. */
-static int fails(const char *name)
-{
-	return strcmp(name, failing) == 0 && countdown-- == 0;
-}
+static int fails(const char *name) { return strcmp(name, failing) == 0 && countdown-- == 0; }
 
 /* --- the wrappers ----------------------------------------------------------------------------------------------------- */
 
@@ -86,7 +83,8 @@ DOES(clBuildProgram,
      (cl_program p, cl_uint n, const cl_device_id *d, const char *o, void (*notify)(cl_program, void *), void *u),
      (p, n, d, o, notify, u))
 DOES(clSetKernelArg, (cl_kernel k, cl_uint i, size_t n, const void *v), (k, i, n, v))
-DOES(clGetKernelWorkGroupInfo, (cl_kernel k, cl_device_id d, cl_uint w, size_t n, void *v, size_t *m), (k, d, w, n, v, m))
+DOES(clGetKernelWorkGroupInfo, (cl_kernel k, cl_device_id d, cl_uint w, size_t n, void *v, size_t *m),
+     (k, d, w, n, v, m))
 DOES(clEnqueueReadBuffer,
      (cl_command_queue q, cl_mem b, cl_bool w, size_t o, size_t n, void *p, cl_uint c, const cl_event *l, cl_event *e),
      (q, b, w, o, n, p, c, l, e))
@@ -98,14 +96,14 @@ DOES(clEnqueueNDRangeKernel,
      (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint c,
       const cl_event *w, cl_event *e),
      (q, k, d, o, g, l, c, w, e))
-DOES(clEnqueueUnmapMemObject,
-     (cl_command_queue q, cl_mem b, void *p, cl_uint c, const cl_event *w, cl_event *e), (q, b, p, c, w, e))
+DOES(clEnqueueUnmapMemObject, (cl_command_queue q, cl_mem b, void *p, cl_uint c, const cl_event *w, cl_event *e),
+     (q, b, p, c, w, e))
 DOES(clFlush, (cl_command_queue q), (q))
 DOES(clFinish, (cl_command_queue q), (q))
 
 /* Mapping makes no object: it is undone by unmapping. */
-static void *wrap_clEnqueueMapBuffer(cl_command_queue q, cl_mem b, cl_bool w, cl_bitfield f, size_t o, size_t n, cl_uint c,
-				     const cl_event *l, cl_event *e, cl_int *error)
+static void *wrap_clEnqueueMapBuffer(cl_command_queue q, cl_mem b, cl_bool w, cl_bitfield f, size_t o, size_t n,
+				     cl_uint c, const cl_event *l, cl_event *e, cl_int *error)
 {
 	if (fails("clEnqueueMapBuffer")) {
 		if (error)
@@ -120,13 +118,26 @@ static const struct {
 	const char *name;
 	int may_succeed;
 } calls[] = {
-	{"clGetPlatformIDs", 0},	{"clGetPlatformInfo", 1},    {"clGetDeviceIDs", 1},
-	{"clGetDeviceInfo", 1},		{"clCreateContext", 0},	     {"clCreateCommandQueue", 0},
-	{"clRetainDevice", 1},		{"clCreateProgramWithSource", 0}, {"clBuildProgram", 0},
-	{"clCreateKernel", 0},		{"clCreateBuffer", 0},	     {"clSetKernelArg", 0},
-	{"clGetKernelWorkGroupInfo", 1}, {"clEnqueueWriteBuffer", 0}, {"clEnqueueNDRangeKernel", 0},
-	{"clEnqueueMapBuffer", 0},	{"clEnqueueUnmapMemObject", 0}, {"clEnqueueReadBuffer", 0},
-	{"clFlush", 1},			{"clFinish", 1},
+	{"clGetPlatformIDs", 0},
+	{"clGetPlatformInfo", 1},
+	{"clGetDeviceIDs", 1},
+	{"clGetDeviceInfo", 1},
+	{"clCreateContext", 0},
+	{"clCreateCommandQueue", 0},
+	{"clRetainDevice", 1},
+	{"clCreateProgramWithSource", 0},
+	{"clBuildProgram", 0},
+	{"clCreateKernel", 0},
+	{"clCreateBuffer", 0},
+	{"clSetKernelArg", 0},
+	{"clGetKernelWorkGroupInfo", 1},
+	{"clEnqueueWriteBuffer", 0},
+	{"clEnqueueNDRangeKernel", 0},
+	{"clEnqueueMapBuffer", 0},
+	{"clEnqueueUnmapMemObject", 0},
+	{"clEnqueueReadBuffer", 0},
+	{"clFlush", 1},
+	{"clFinish", 1},
 };
 
 /* --- one life of a device: open, scene, batch ------------------------------------------------------------------------- */
@@ -221,10 +232,7 @@ static void install(void)
 	memcpy(expected, out, sizeof expected);
 }
 
-static void test_nothing_leaks(void)
-{
-	TEST_ASSERT_EQUAL_MESSAGE(0, live, "objects created and not released");
-}
+static void test_nothing_leaks(void) { TEST_ASSERT_EQUAL_MESSAGE(0, live, "objects created and not released"); }
 
 static void fail_each(cl_int code, int check_memory)
 {
@@ -247,10 +255,11 @@ static void fail_each(cl_int code, int check_memory)
 				TEST_ASSERT_TRUE_MESSAGE(calls[c].may_succeed, failing);
 			} else {
 				const int build = strcmp(failing, "clBuildProgram") == 0;
-				const lobe_status right = check_memory ? LOBE_ERROR_MEMORY
-								       : (build ? LOBE_ERROR_BUILD : status);
+				const lobe_status right =
+					check_memory ? LOBE_ERROR_MEMORY : (build ? LOBE_ERROR_BUILD : status);
 				TEST_ASSERT_EQUAL_STRING(lobe_status_string(right), lobe_status_string(status));
-				TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), failing), lobe_error_message());
+				TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), failing),
+							     lobe_error_message());
 			}
 			TEST_ASSERT_EQUAL_MESSAGE(0, live, failing);
 		}

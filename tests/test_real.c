@@ -39,15 +39,9 @@ static uint32_t bits_of(float x)
 }
 
 /* Uniform in [lo, hi). */
-static float random_between(double lo, double hi)
-{
-	return (float)(lo + (hi - lo) * random_bits() * 0x1p-32);
-}
+static float random_between(double lo, double hi) { return (float)(lo + (hi - lo) * random_bits() * 0x1p-32); }
 
-static int same_bits(float a, float b)
-{
-	return bits_of(a) == bits_of(b);
-}
+static int same_bits(float a, float b) { return bits_of(a) == bits_of(b); }
 
 typedef struct {
 	const real_function *function;
@@ -97,48 +91,48 @@ static void check_function(const real_function *function)
 {
 	/* Ends of domains, zeros, quadrants, and where the functions change their formula, overflow or underflow. */
 	static const float special[] = {
-	    0.0f,
-	    0x1p-149f,
-	    0x1p-126f,
-	    0x1p-24f,
-	    0x1p-13f,
-	    0x1p-12f,
-	    0.125f,
-	    0.25f,
-	    0.375f,
-	    0.5f,
-	    0.625f,
-	    0.75f,
-	    0.875f,
-	    1.0f,
-	    1.5f,
-	    2.0f,
-	    2.236068f,
-	    3.0f,
-	    4.0f,
-	    5.0f,
-	    0.70710678f,
-	    1.41421356f,
-	    0.99663f,
-	    0.78539816f,
-	    1.57079633f,
-	    3.14159265f,
-	    4.7123890f,
-	    6.2831853f,
-	    88.722839f,
-	    87.336545f,
-	    103.97208f,
-	    126.0f,
-	    128.0f,
-	    149.0f,
-	    150.0f,
-	    1048576.0f,
-	    4194304.0f,
-	    8388608.0f,
-	    16777216.0f,
-	    0x1p64f,
-	    16367173.0f * 0x1p72f, /* the float that comes nearest to a multiple of pi/2 */
-	    0x1.fffffep127f,
+		0.0f,
+		0x1p-149f,
+		0x1p-126f,
+		0x1p-24f,
+		0x1p-13f,
+		0x1p-12f,
+		0.125f,
+		0.25f,
+		0.375f,
+		0.5f,
+		0.625f,
+		0.75f,
+		0.875f,
+		1.0f,
+		1.5f,
+		2.0f,
+		2.236068f,
+		3.0f,
+		4.0f,
+		5.0f,
+		0.70710678f,
+		1.41421356f,
+		0.99663f,
+		0.78539816f,
+		1.57079633f,
+		3.14159265f,
+		4.7123890f,
+		6.2831853f,
+		88.722839f,
+		87.336545f,
+		103.97208f,
+		126.0f,
+		128.0f,
+		149.0f,
+		150.0f,
+		1048576.0f,
+		4194304.0f,
+		8388608.0f,
+		16777216.0f,
+		0x1p64f,
+		16367173.0f * 0x1p72f, /* the float that comes nearest to a multiple of pi/2 */
+		0x1.fffffep127f,
 	};
 	check c = {function, 0, 0, {0}, 0};
 	for (size_t i = 0; i < sizeof special / sizeof *special; i++)
@@ -295,10 +289,10 @@ static void test_special_values(void)
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
 		const float x = bad[i];
 		const float results[] = {
-		    lobe_sin(x),         lobe_cos(x),         lobe_tan(x),       lobe_asin(x),
-		    lobe_acos(x),        lobe_atan(x),        lobe_exp(x),       lobe_exp2(x),
-		    lobe_log(x),         lobe_log2(x),        lobe_erf(x),       lobe_erfinv(x),
-		    lobe_atan2(x, 1.0f), lobe_atan2(1.0f, x), lobe_pow(x, 2.0f), lobe_pow(2.0f, x)};
+			lobe_sin(x),         lobe_cos(x),         lobe_tan(x),       lobe_asin(x),
+			lobe_acos(x),        lobe_atan(x),        lobe_exp(x),       lobe_exp2(x),
+			lobe_log(x),         lobe_log2(x),        lobe_erf(x),       lobe_erfinv(x),
+			lobe_atan2(x, 1.0f), lobe_atan2(1.0f, x), lobe_pow(x, 2.0f), lobe_pow(2.0f, x)};
 		for (size_t k = 0; k < sizeof results / sizeof *results; k++)
 			TEST_ASSERT_TRUE(same_bits(results[k], nan));
 		TEST_ASSERT_TRUE(isnan(lobe_sincos_2pi(x).s) && isnan(lobe_sincos_2pi(x).c));

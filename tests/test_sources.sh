@@ -87,7 +87,14 @@ listed() {
 }
 check "every lobe is in every list" listed
 
-# README's two programs are the ones that build: see examples/.
+# README's C program builds without a warning and runs. (Its kernel: test_opencl.c.)
+readme() {
+	sed -n '/^```c$/,/^```$/p' README.md | sed '1d;$d' >$out/readme.c
+	# shellcheck disable=SC2086
+	$CC $warnings $exact -Iinclude $out/readme.c build/liblobe.a -o $out/readme -lm -ldl -lpthread && $out/readme
+}
+check "README's program" readme
+
 installs() {
 	rm -rf $out/root
 	make -s install DESTDIR="$PWD/$out/root" PREFIX=/usr || return 1

@@ -122,7 +122,8 @@ static size_t wrong_scalar(void)
 	wrong += count_wrong(&eval_lines, got, "scalar eval");
 	for (size_t i = 0; i < sample_lines.count; i++) {
 		const lobe_bsdf b = materials[sample_lines.material[i]];
-		const lobe_vec3 wo = lobe_vec3_make(sample_lines.in[0][i], sample_lines.in[1][i], sample_lines.in[2][i]);
+		const lobe_vec3 wo =
+			lobe_vec3_make(sample_lines.in[0][i], sample_lines.in[1][i], sample_lines.in[2][i]);
 		const lobe_vec3 u = lobe_vec3_make(sample_lines.in[3][i], sample_lines.in[4][i], sample_lines.in[5][i]);
 		const lobe_sample s = lobe_bsdf_sample(b, wo, u);
 		const float values[7] = {s.wi.x, s.wi.y, s.wi.z, s.weight.r, s.weight.g, s.weight.b, s.pdf};

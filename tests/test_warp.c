@@ -15,14 +15,8 @@
 
 static char outside[128];
 
-void setUp(void)
-{
-	outside[0] = '\0';
-}
-void tearDown(void)
-{
-	TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside);
-}
+void setUp(void) { outside[0] = '\0'; }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside); }
 
 /* Prints a measured maximum beside its bound; tearDown fails the test when one is outside, after all were printed. */
 static void measured(const char *what, double value, double bound)
@@ -33,10 +27,7 @@ static void measured(const char *what, double value, double bound)
 		snprintf(outside, sizeof outside, "%s: %g > %g", what, value, bound);
 }
 
-static double larger(double a, double b)
-{
-	return a > b ? a : b;
-}
+static double larger(double a, double b) { return a > b ? a : b; }
 
 /* Half angles from a thousandth of a degree to the whole sphere. */
 static const float heights[] = {0x1p-32f, 1e-4f, 0.3f, 1.0f, 1.7f, 2.0f};
@@ -95,11 +86,11 @@ static float pdf_cap(lobe_vec3 w, float height)
 }
 
 static const warp warps[] = {
-    {"cosine hemisphere", map_cosine, pdf_cosine, inverse_cosine, 1.0f, 0.0},
-    {"uniform hemisphere", map_uniform, pdf_uniform, inverse_uniform, 1.0f, 0.0},
-    {"cap of height 0.3", lobe_spherical_cap, pdf_cap, lobe_spherical_cap_inverse, 0.3f, 1.0 - (double)0.3f},
-    {"cap of height 1.7", lobe_spherical_cap, pdf_cap, lobe_spherical_cap_inverse, 1.7f, 1.0 - (double)1.7f},
-    {"sphere", lobe_spherical_cap, pdf_cap, lobe_spherical_cap_inverse, 2.0f, -1.0},
+	{"cosine hemisphere", map_cosine, pdf_cosine, inverse_cosine, 1.0f, 0.0},
+	{"uniform hemisphere", map_uniform, pdf_uniform, inverse_uniform, 1.0f, 0.0},
+	{"cap of height 0.3", lobe_spherical_cap, pdf_cap, lobe_spherical_cap_inverse, 0.3f, 1.0 - (double)0.3f},
+	{"cap of height 1.7", lobe_spherical_cap, pdf_cap, lobe_spherical_cap_inverse, 1.7f, 1.0 - (double)1.7f},
+	{"sphere", lobe_spherical_cap, pdf_cap, lobe_spherical_cap_inverse, 2.0f, -1.0},
 };
 #define WARPS (sizeof warps / sizeof warps[0])
 
@@ -128,10 +119,7 @@ static double length3(lobe_vec3 w)
 	return sqrt((double)w.x * (double)w.x + (double)w.y * (double)w.y + (double)w.z * (double)w.z);
 }
 
-static double radius(lobe_vec2 d)
-{
-	return sqrt((double)d.x * (double)d.x + (double)d.y * (double)d.y);
-}
+static double radius(lobe_vec2 d) { return sqrt((double)d.x * (double)d.x + (double)d.y * (double)d.y); }
 
 static void test_disk_domain(void)
 {
@@ -227,10 +215,7 @@ static double chi_square_p(const double *expected, const uint32_t *count, size_t
 
 typedef double (*density)(const warp *m, lobe_vec3 w);
 
-static double density_of_header(const warp *m, lobe_vec3 w)
-{
-	return (double)m->pdf(w, m->height);
-}
+static double density_of_header(const warp *m, lobe_vec3 w) { return (double)m->pdf(w, m->height); }
 
 /* Off by up to 5 % over the range of z, with the same integral for the cosine (whose mean z is 2/3) and for caps (whose
  * mean is the middle). */
@@ -358,10 +343,7 @@ static void test_densities_integrate_to_one(void)
 /* --- inverses -------------------------------------------------------------------------------------------------------
  */
 
-static int in_square(lobe_vec2 u)
-{
-	return u.x >= 0.0f && u.x < 1.0f && u.y >= 0.0f && u.y < 1.0f;
-}
+static int in_square(lobe_vec2 u) { return u.x >= 0.0f && u.x < 1.0f && u.y >= 0.0f && u.y < 1.0f; }
 
 /* Distance on a circle of length 1: the two ends of [0,1) are neighbours where u goes round. */
 static double around(float a, float b)
@@ -398,7 +380,7 @@ static void test_disk_map_of_inverse(void)
 	double worst = 0.0, worst_cosine = 0.0;
 	for (uint64_t i = 0; i < CASES; i++) {
 		const double r =
-		    i % 8 ? sqrt((double)test_uniform(20, i)) : pow(10.0, -8.0 * (double)test_uniform(20, i));
+			i % 8 ? sqrt((double)test_uniform(20, i)) : pow(10.0, -8.0 * (double)test_uniform(20, i));
 		const double phi = 2.0 * PI * (double)test_uniform(21, i);
 		const lobe_vec2 d = lobe_vec2_make((float)(r * cos(phi)), (float)(r * sin(phi)));
 		const lobe_vec2 e = lobe_concentric_disk(lobe_concentric_disk_inverse(d));

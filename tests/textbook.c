@@ -4,10 +4,7 @@
 
 #define PI 3.14159265358979323846
 
-double textbook_dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+double textbook_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 void textbook_normalize(double v[3])
 {

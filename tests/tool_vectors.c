@@ -33,8 +33,9 @@ static void write_case(FILE *file, const test_case *c, inputs in, size_t first)
 		const lobe_vec3 u = lobe_vec3_make(in.array[6][i], in.array[7][i], in.array[8][i]);
 		const lobe_rgb f = lobe_bsdf_eval(c->bsdf, wo, wi);
 		const lobe_sample s = lobe_bsdf_sample(c->bsdf, wo, u);
-		const float eval[10] = {wo.x, wo.y, wo.z, wi.x, wi.y, wi.z, f.r, f.g, f.b, lobe_bsdf_pdf(c->bsdf, wo, wi)};
-		const float sample[13] = {wo.x,	  wo.y,	  wo.z,	      u.x,	  u.y,	      u.z,  s.wi.x,
+		const float eval[10] = {wo.x, wo.y, wo.z, wi.x, wi.y,
+					wi.z, f.r,  f.g,  f.b,  lobe_bsdf_pdf(c->bsdf, wo, wi)};
+		const float sample[13] = {wo.x,   wo.y,   wo.z,       u.x,        u.y,        u.z,  s.wi.x,
 					  s.wi.y, s.wi.z, s.weight.r, s.weight.g, s.weight.b, s.pdf};
 		fputs("eval", file);
 		put(file, eval, 10);
@@ -53,7 +54,8 @@ static int write_lobe(const char *folder, const char *name, lobe_uint kind, inpu
 		perror(path);
 		return 1;
 	}
-	fprintf(file, "# Known answers of lobe_%s, written by make vectors; tests/tool_vectors.c tells the format.\n", name);
+	fprintf(file, "# Known answers of lobe_%s, written by make vectors; tests/tool_vectors.c tells the format.\n",
+		name);
 	for (size_t i = 0; i < case_count(); i++)
 		if (case_at(i)->kind == kind)
 			write_case(file, case_at(i), in, i * PER_CASE);

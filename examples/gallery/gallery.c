@@ -132,8 +132,8 @@ static size_t differing_pixels(const struct image *a, const struct image *b)
 }
 
 /* Brings every pixel to `until` samples on e's device; label NULL: quietly. */
-static int run(struct film *film, const struct trace_setup *common, const struct entry *e, const char *label, uint32_t until,
-	       struct trace_stats *stats)
+static int run(struct film *film, const struct trace_setup *common, const struct entry *e, const char *label,
+	       uint32_t until, struct trace_stats *stats)
 {
 	struct progress progress;
 	char message[512];

@@ -135,8 +135,8 @@ static exr_result_t exr_read_pixels(exr_context_t file, const struct image *imag
 	exr_chunk_info_t chunk;
 	int32_t step_x = image->width, step_y = 1;
 	int first = 1;
-	exr_result_t code =
-	    tiled ? exr_get_tile_sizes(file, 0, 0, 0, &step_x, &step_y) : exr_get_scanlines_per_chunk(file, 0, &step_y);
+	exr_result_t code = tiled ? exr_get_tile_sizes(file, 0, 0, 0, &step_x, &step_y)
+				  : exr_get_scanlines_per_chunk(file, 0, &step_y);
 	if (code == EXR_ERR_SUCCESS && (step_x < 1 || step_y < 1))
 		code = EXR_ERR_INVALID_ATTR;
 	for (int y = 0; code == EXR_ERR_SUCCESS && y < image->height; y += step_y)
@@ -265,8 +265,8 @@ int image_write_exr(const struct image *image, const char *path, char *message, 
 	if (code == EXR_ERR_SUCCESS)
 		code = exr_add_part(file, "gallery", EXR_STORAGE_SCANLINE, &part);
 	if (code == EXR_ERR_SUCCESS)
-		code =
-		    exr_initialize_required_attr_simple(file, part, image->width, image->height, EXR_COMPRESSION_ZIP);
+		code = exr_initialize_required_attr_simple(file, part, image->width, image->height,
+							   EXR_COMPRESSION_ZIP);
 	for (const char *name = "BGR"; code == EXR_ERR_SUCCESS && *name; name++) {
 		const char channel[2] = {*name, '\0'};
 		code = exr_add_channel(file, part, channel, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);

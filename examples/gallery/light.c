@@ -6,10 +6,7 @@
 
 enum { STUDIO_WIDTH = 512, STUDIO_HEIGHT = 256 };
 
-static float luminance(lobe_rgb c)
-{
-	return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-}
+static float luminance(lobe_rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 static int alloc(struct light *light, int width, int height, float degrees)
 {
@@ -85,7 +82,7 @@ static int build(struct light *light)
 	finish_cdf(light->row_cdf, light->row_guide, rows, h);
 	for (size_t i = 0; i < w * h; i++)
 		light->texel[i].pdf =
-		    rows[h] > 0.0 ? (float)((double)luminance(light->texel[i].radiance) / rows[h]) : 0.0f;
+			rows[h] > 0.0 ? (float)((double)luminance(light->texel[i].radiance) / rows[h]) : 0.0f;
 	free(sum);
 	return 0;
 }
@@ -116,10 +113,7 @@ int light_from_image(struct light *light, const struct image *image, float degre
 
 /* --- lookup and sampling ---------------------------------------------------------------------------------------- */
 
-static int clamp_index(int i, int n)
-{
-	return i < 0 ? 0 : (i >= n ? n - 1 : i);
-}
+static int clamp_index(int i, int n) { return i < 0 ? 0 : (i >= n ? n - 1 : i); }
 
 lobe_rgb light_radiance(const struct light *light, lobe_vec3 w, float *pdf)
 {
@@ -202,9 +196,9 @@ static lobe_rgb mix(lobe_rgb a, lobe_rgb b, float t)
 static lobe_rgb studio(lobe_vec3 w)
 {
 	static const struct soft_box boxes[] = {
-	    {-128.0f, 48.0f, 0.62f, 0.40f, 0.10f, {6.2f, 5.6f, 4.9f}}, /* key: left, behind the camera */
-	    {112.0f, 30.0f, 0.16f, 0.75f, 0.06f, {3.2f, 3.6f, 4.2f}},  /* fill: a strip on the right */
-	    {10.0f, 40.0f, 1.00f, 0.14f, 0.06f, {3.6f, 3.6f, 3.7f}},   /* rim: a bar behind the scene */
+		{-128.0f, 48.0f, 0.62f, 0.40f, 0.10f, {6.2f, 5.6f, 4.9f}}, /* key: left, behind the camera */
+		{112.0f, 30.0f, 0.16f, 0.75f, 0.06f, {3.2f, 3.6f, 4.2f}},  /* fill: a strip on the right */
+		{10.0f, 40.0f, 1.00f, 0.14f, 0.06f, {3.6f, 3.6f, 3.7f}},   /* rim: a bar behind the scene */
 	};
 	const lobe_rgb zenith = {0.10f, 0.14f, 0.21f}, horizon = {0.46f, 0.44f, 0.41f}, floor = {0.08f, 0.076f, 0.072f};
 	const lobe_rgb sun_colour = {23.0f, 19.0f, 13.5f};

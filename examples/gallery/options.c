@@ -7,19 +7,19 @@
 #include <string.h>
 
 const char options_usage[] =
-    "usage: gallery [OPTION]...\n"
-    "Renders a gallery of materials on each device and compares the devices.\n\n"
-    "  --device NAME[,NAME...]  native, native:N, opencl, opencl:N ... or all (default)\n"
-    "  --spp N                  samples a pixel, 1 to 65536 (default 64)\n"
-    "  --size WxH               pixels, 16x16 to 8192x8192 (default 640x480)\n"
-    "  --probe FILE.exr         light from a lat-long picture instead of the studio\n"
-    "  --rotate DEG             turn the light about the vertical\n"
-    "  --exposure EV            stops, for the PNG alone (default 0)\n"
-    "  --bounces N              surfaces a path scatters at, 1 to 64 (default 10)\n"
-    "  --reference N            samples of the error table's reference (default 1024); 0: no table\n"
-    "  --out DIR                where gallery.png and gallery.exr go (default out)\n"
-    "  --help                   this text\n\n"
-    "Exit status: 0 success; 1 failure, or devices whose pictures differ; 2 bad arguments.\n";
+	"usage: gallery [OPTION]...\n"
+	"Renders a gallery of materials on each device and compares the devices.\n\n"
+	"  --device NAME[,NAME...]  native, native:N, opencl, opencl:N ... or all (default)\n"
+	"  --spp N                  samples a pixel, 1 to 65536 (default 64)\n"
+	"  --size WxH               pixels, 16x16 to 8192x8192 (default 640x480)\n"
+	"  --probe FILE.exr         light from a lat-long picture instead of the studio\n"
+	"  --rotate DEG             turn the light about the vertical\n"
+	"  --exposure EV            stops, for the PNG alone (default 0)\n"
+	"  --bounces N              surfaces a path scatters at, 1 to 64 (default 10)\n"
+	"  --reference N            samples of the error table's reference (default 1024); 0: no table\n"
+	"  --out DIR                where gallery.png and gallery.exr go (default out)\n"
+	"  --help                   this text\n\n"
+	"Exit status: 0 success; 1 failure, or devices whose pictures differ; 2 bad arguments.\n";
 
 int complain(const char *what, const char *why)
 {

@@ -48,10 +48,7 @@ static uint32_t sobol1_reversed(uint32_t x)
 	return x ^ (x & 0xffff0000u) >> 16;
 }
 
-static float unit(uint32_t x)
-{
-	return (float)(x >> 8) * 0x1p-24f;
-}
+static float unit(uint32_t x) { return (float)(x >> 8) * 0x1p-24f; }
 
 void random_spread(struct random_key key, uint32_t use, float u[3])
 {
@@ -66,7 +63,4 @@ void random_spread(struct random_key key, uint32_t use, float u[3])
 	u[2] = unit(reverse(scramble(other, k.v[0] ^ k.v[3])));
 }
 
-float random_plain(struct random_key key, uint32_t use)
-{
-	return unit(words(key, key.sample, use).v[0]);
-}
+float random_plain(struct random_key key, uint32_t use) { return unit(words(key, key.sample, use).v[0]); }

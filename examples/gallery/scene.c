@@ -12,7 +12,7 @@ static const float TABLE = 60.0f; /* radius; beyond it is the probe */
 static lobe_bsdf metal(uint32_t name, float roughness_x, float roughness_y)
 {
 	return lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(
-	    roughness_x * roughness_x, roughness_y * roughness_y, lobe_metal_eta(name), lobe_metal_k(name)));
+		roughness_x * roughness_x, roughness_y * roughness_y, lobe_metal_eta(name), lobe_metal_k(name)));
 }
 
 static lobe_bsdf glass(uint32_t name, float roughness)
@@ -78,7 +78,7 @@ struct ray scene_camera_ray(const struct scene *scene, float x, float y, float a
 	struct ray ray;
 	ray.origin = scene->eye;
 	ray.dir = lobe_normalize(
-	    lobe_vec3_fma(x * aspect * fit, scene->right, lobe_vec3_fma(y * fit, scene->up, scene->forward)));
+		lobe_vec3_fma(x * aspect * fit, scene->right, lobe_vec3_fma(y * fit, scene->up, scene->forward)));
 	ray.from = SCENE_NOTHING;
 	ray.inside = 0;
 	return ray;
@@ -108,16 +108,13 @@ static float ball_distance(const struct ray *ray, int ball)
 static void clip(float origin, float dir, float low, float high, float *near, float *far)
 {
 	const float inverse =
-	    1.0f / dir; /* infinite where the ray is parallel: then inside gives all, outside nothing */
+		1.0f / dir; /* infinite where the ray is parallel: then inside gives all, outside nothing */
 	const float a = (low - origin) * inverse, b = (high - origin) * inverse;
 	*near = lobe_max(*near, lobe_min(a, b));
 	*far = lobe_min(*far, lobe_max(a, b));
 }
 
-static int clamp_cell(float x, int n)
-{
-	return x < 0.0f ? 0 : (x >= (float)n ? n - 1 : (int)x);
-}
+static int clamp_cell(float x, int n) { return x < 0.0f ? 0 : (x >= (float)n ? n - 1 : (int)x); }
 
 /* The balls stand in a grid, so the grid itself finds the first one: walk its cells in the order the ray crosses them
  * (Amanatides and Woo 1987). */

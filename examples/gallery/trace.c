@@ -101,20 +101,11 @@ static float power_heuristic(float a, float b)
 	return a > 0.0f ? 1.0f / (1.0f + ratio * ratio) : 0.0f;
 }
 
-static lobe_rgb multiply(lobe_rgb a, lobe_rgb b)
-{
-	return lobe_rgb_make(a.r * b.r, a.g * b.g, a.b * b.b);
-}
+static lobe_rgb multiply(lobe_rgb a, lobe_rgb b) { return lobe_rgb_make(a.r * b.r, a.g * b.g, a.b * b.b); }
 
-static lobe_rgb add(lobe_rgb a, lobe_rgb b)
-{
-	return lobe_rgb_make(a.r + b.r, a.g + b.g, a.b + b.b);
-}
+static lobe_rgb add(lobe_rgb a, lobe_rgb b) { return lobe_rgb_make(a.r + b.r, a.g + b.g, a.b + b.b); }
 
-static lobe_vec3 load(float *const array[3], size_t i)
-{
-	return lobe_vec3_make(array[0][i], array[1][i], array[2][i]);
-}
+static lobe_vec3 load(float *const array[3], size_t i) { return lobe_vec3_make(array[0][i], array[1][i], array[2][i]); }
 
 static void store(float *const array[3], size_t i, lobe_vec3 v)
 {
@@ -137,10 +128,7 @@ static size_t gather(uint32_t *list, size_t n, const uint32_t *kept)
 /* --- the steps of a round: each a loop over chunks --------------------------------------------------------------- */
 
 /* u in [0,1) to a density that falls linearly from 0 to both sides, to -1 and 1. */
-static float tent(float u)
-{
-	return u < 0.5f ? lobe_sqrt(2.0f * u) - 1.0f : 1.0f - lobe_sqrt(2.0f * (1.0f - u));
-}
+static float tent(float u) { return u < 0.5f ? lobe_sqrt(2.0f * u) - 1.0f : 1.0f - lobe_sqrt(2.0f * (1.0f - u)); }
 
 /* A new path through a random point of its pixel, with a tent two pixels wide as the filter. */
 static void start(void *context, size_t begin, size_t end)

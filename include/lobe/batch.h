@@ -80,7 +80,7 @@ void lobe_scene_destroy(lobe_scene *scene);
  * count 0 is allowed and does nothing. Inputs of one element never affect another's result. */
 typedef struct {
 	size_t count;
-	const uint32_t *material; /* index into the scene's materials, or NULL: material 0 for every element */
+	const uint32_t *material;          /* index into the scene's materials, or NULL: material 0 for every element */
 	const float *wo[3], *wi[3], *u[3]; /* wo always; wi for eval; u, each in [0,1), for sample */
 	float *f[3], *pdf;                 /* eval */
 	float *sample_wi[3], *weight[3], *sample_pdf;

@@ -31,7 +31,7 @@ typedef int64_t lobe_int64;
 #if LOBE_DOUBLE
 
 typedef double lobe_real;
-#define LOBE_R(x) x
+#define LOBE_R(x)     x
 #define LOBE_REAL_MAX DBL_MAX
 LOBE_FN lobe_real lobe_fma(lobe_real a, lobe_real b, lobe_real c) { return fma(a, b, c); }
 LOBE_FN lobe_real lobe_sqrt(lobe_real x) { return sqrt(x); }
@@ -40,7 +40,7 @@ LOBE_FN lobe_real lobe_abs(lobe_real x) { return fabs(x); }
 #else
 
 typedef float lobe_real;
-#define LOBE_R(x) x##f
+#define LOBE_R(x)     x##f
 #define LOBE_REAL_MAX FLT_MAX
 
 LOBE_FN lobe_real lobe_sqrt(lobe_real x) { return sqrtf(x); }

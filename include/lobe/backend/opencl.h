@@ -13,7 +13,7 @@ typedef int lobe_int;
 typedef ulong lobe_uint64;
 typedef long lobe_int64;
 
-#define LOBE_R(x) x##f
+#define LOBE_R(x)     x##f
 #define LOBE_REAL_MAX 0x1.fffffep+127f
 
 /* Where the compiler is clang for x86-64 (PoCL) a struct of floats would travel as <2 x float>, and what is not inlined

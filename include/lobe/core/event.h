@@ -7,7 +7,7 @@
 enum {
 	LOBE_EVENT_REFLECT = 1,
 	LOBE_EVENT_TRANSMIT = 2,
-	LOBE_EVENT_DELTA = 4,  /* pdf is a probability, eval and pdf of the direction are 0 */
+	LOBE_EVENT_DELTA = 4, /* pdf is a probability, eval and pdf of the direction are 0 */
 	LOBE_EVENT_DIFFUSE = 8,
 	LOBE_EVENT_GLOSSY = 16
 };

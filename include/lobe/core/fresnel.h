@@ -1,7 +1,7 @@
 /* fresnel.h - reflection, refraction and total reflection at a smooth interface.
  *
- * Throughout, c = |cos theta| of the incident side against the (micro)normal, in [0, 1], and eta = index of the far side
- * over the index of the incident side. Unpolarised light. */
+ * Throughout, c = |cos theta| of the incident side against the (micro)normal, in [0, 1], and eta = index of the far
+ * side over the index of the incident side. Unpolarised light. */
 #ifndef LOBE_CORE_FRESNEL_H
 #define LOBE_CORE_FRESNEL_H
 
@@ -15,7 +15,7 @@ typedef struct {
 
 /* Exact dielectric Fresnel. Domain: eta in [1/1000, 1000].
  *
- * With g = eta cos_t, A = c + g, B = eta^2 c + g and k = (eta-1)(eta+1) = g^2 - c^2 the amplitudes (Born and Wolf, 1.5.2)
+ * With g = eta cos_t, A = c + g, B = eta^2 c + g, k = (eta-1)(eta+1) = g^2 - c^2 the amplitudes (Born and Wolf, 1.5.2)
  *	r_s = (c - g)/A              = -k/A^2
  *	r_p = (eta^2 c - g)/B        = k (c g - sin^2)/(A B)
  * are free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle), and so is
@@ -103,8 +103,7 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
- * Let (A + iK)^2 = (n + ik)^2 - sin^2. The usual form (Born and Wolf, 14.2) needs 2Ac and a^2 + b^2 = |n^2-k^2-s^2 + 2nki|
- * =: q, with A = sqrt((q + t)/2), t = n^2 - k^2 - s^2. For a metal t < 0 and q + t cancels; then A = nk/K with
+ * Let (A + iK)^2 = (n + ik)^2 - sin^2. The usual form (Born and Wolf, 14.2) needs 2Ac and A^2 + K^2 =: q, with A = sqrt((q + t)/2), t = n^2 - k^2 - s^2. For a metal t < 0 and q + t cancels; then A = nk/K with
  * K = sqrt((q - t)/2), which does not. Multiplied through by B = max(A, K), both cases need one root and no division:
  *	F_s = N/D,  N, D = (q + c^2) B -+ X c,        X = q + t if t >= 0, else 2nk
  *	F = F_s E/(E + X c s^2),                      E = (q c^2 + s^4) B
@@ -165,8 +164,8 @@ LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
 	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_make(c), n, k);
 }
 
-/* Schlick 1994: f0 + (1 - f0)(1 - c)^5. f0: reflectance at normal incidence, in [0, 1]. Against the exact dielectric the
- * largest absolute error is .060 at index 1.33 and .036 at 1.5. From the dense side use the transmitted cosine as c. */
+/* Schlick 1994: f0 + (1 - f0)(1 - c)^5. f0: reflectance at normal incidence, in [0, 1]. From the exact dielectric the
+ * largest distance is .060 at index 1.33 and .036 at 1.5. From the dense side use the transmitted cosine as c. */
 LOBE_FN lobe_real lobe_fresnel_schlick(lobe_real c, lobe_real f0)
 {
 	const lobe_real m = LOBE_R(1.0) - c;
@@ -176,7 +175,8 @@ LOBE_FN lobe_real lobe_fresnel_schlick(lobe_real c, lobe_real f0)
 
 LOBE_FN lobe_rgb lobe_fresnel_schlick_rgb(lobe_real c, lobe_rgb f0)
 {
-	return lobe_rgb_make(lobe_fresnel_schlick(c, f0.r), lobe_fresnel_schlick(c, f0.g), lobe_fresnel_schlick(c, f0.b));
+	return lobe_rgb_make(lobe_fresnel_schlick(c, f0.r), lobe_fresnel_schlick(c, f0.g),
+			     lobe_fresnel_schlick(c, f0.b));
 }
 
 #endif

@@ -28,58 +28,19 @@ typedef struct {
 
 #if LOBE_DOUBLE
 
-LOBE_FN lobe_real lobe_sin(lobe_real x)
-{
-	return sin(x);
-}
-LOBE_FN lobe_real lobe_cos(lobe_real x)
-{
-	return cos(x);
-}
-LOBE_FN lobe_real lobe_tan(lobe_real x)
-{
-	return tan(x);
-}
-LOBE_FN lobe_real lobe_asin(lobe_real x)
-{
-	return asin(x);
-}
-LOBE_FN lobe_real lobe_acos(lobe_real x)
-{
-	return acos(x);
-}
-LOBE_FN lobe_real lobe_atan(lobe_real x)
-{
-	return atan(x);
-}
-LOBE_FN lobe_real lobe_atan2(lobe_real y, lobe_real x)
-{
-	return atan2(y, x);
-}
-LOBE_FN lobe_real lobe_exp(lobe_real x)
-{
-	return exp(x);
-}
-LOBE_FN lobe_real lobe_exp2(lobe_real x)
-{
-	return exp2(x);
-}
-LOBE_FN lobe_real lobe_log(lobe_real x)
-{
-	return log(x);
-}
-LOBE_FN lobe_real lobe_log2(lobe_real x)
-{
-	return log2(x);
-}
-LOBE_FN lobe_real lobe_pow(lobe_real x, lobe_real y)
-{
-	return x < 0.0 && y != 0.0 ? (double)NAN : pow(fabs(x), y);
-}
-LOBE_FN lobe_real lobe_erf(lobe_real x)
-{
-	return erf(x);
-}
+LOBE_FN lobe_real lobe_sin(lobe_real x) { return sin(x); }
+LOBE_FN lobe_real lobe_cos(lobe_real x) { return cos(x); }
+LOBE_FN lobe_real lobe_tan(lobe_real x) { return tan(x); }
+LOBE_FN lobe_real lobe_asin(lobe_real x) { return asin(x); }
+LOBE_FN lobe_real lobe_acos(lobe_real x) { return acos(x); }
+LOBE_FN lobe_real lobe_atan(lobe_real x) { return atan(x); }
+LOBE_FN lobe_real lobe_atan2(lobe_real y, lobe_real x) { return atan2(y, x); }
+LOBE_FN lobe_real lobe_exp(lobe_real x) { return exp(x); }
+LOBE_FN lobe_real lobe_exp2(lobe_real x) { return exp2(x); }
+LOBE_FN lobe_real lobe_log(lobe_real x) { return log(x); }
+LOBE_FN lobe_real lobe_log2(lobe_real x) { return log2(x); }
+LOBE_FN lobe_real lobe_pow(lobe_real x, lobe_real y) { return x < 0.0 && y != 0.0 ? (double)NAN : pow(fabs(x), y); }
+LOBE_FN lobe_real lobe_erf(lobe_real x) { return erf(x); }
 
 /* The quarter turn is taken off exactly before 2 pi, which is not a double, comes in. */
 LOBE_FN lobe_sincos lobe_sincos_2pi(lobe_real u)
@@ -119,28 +80,13 @@ LOBE_FN lobe_real lobe_erfinv(lobe_real x)
 
 #else
 
-LOBE_FN lobe_real lobe_real_nan(void)
-{
-	return lobe_from_bits(0x7fc00000u);
-}
-LOBE_FN lobe_real lobe_real_inf(void)
-{
-	return lobe_from_bits(0x7f800000u);
-}
+LOBE_FN lobe_real lobe_real_nan(void) { return lobe_from_bits(0x7fc00000u); }
+LOBE_FN lobe_real lobe_real_inf(void) { return lobe_from_bits(0x7f800000u); }
 /* v, or the one NaN that every function returns: what arithmetic does to a NaN's bits differs between processors. */
-LOBE_FN lobe_real lobe_nan_or(lobe_real x, lobe_real v)
-{
-	return x == x ? v : lobe_real_nan();
-}
+LOBE_FN lobe_real lobe_nan_or(lobe_real x, lobe_real v) { return x == x ? v : lobe_real_nan(); }
 
-LOBE_FN lobe_uint lobe_sign_bit(lobe_real x)
-{
-	return lobe_to_bits(x) & 0x80000000u;
-}
-LOBE_FN lobe_real lobe_flip_sign(lobe_real x, lobe_uint sign_bit)
-{
-	return lobe_from_bits(lobe_to_bits(x) ^ sign_bit);
-}
+LOBE_FN lobe_uint lobe_sign_bit(lobe_real x) { return lobe_to_bits(x) & 0x80000000u; }
+LOBE_FN lobe_real lobe_flip_sign(lobe_real x, lobe_uint sign_bit) { return lobe_from_bits(lobe_to_bits(x) ^ sign_bit); }
 
 #include "trig.h"
 #include "explog.h"

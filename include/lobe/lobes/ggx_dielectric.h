@@ -10,8 +10,10 @@
  *
  * Near eta = 1. A facet turns light by about |eta - 1|, so refracted light spreads over alpha |eta - 1|. Where that is
  * below LOBE_DIELECTRIC_DELTA, 32 roundings of a unit vector, no float direction can resolve the lobe: refraction is
- * then an event of LOBE_EVENT_DELTA, still through the sampled facet, and is not masked. At eta = 1 light passes
- * straight with weight 1 and nothing is reflected. */
+ * then an event of LOBE_EVENT_DELTA, still through the sampled facet, and is not masked: at eta = 1 light passes
+ * straight with weight 1 and nothing is reflected. The price is a step where that begins, up to G1(wo), which
+ * tests/test_lobes_index.c prints: this close to 1 the model's masking is loss that only multiple scattering would
+ * return. */
 #ifndef LOBE_LOBES_GGX_DIELECTRIC_H
 #define LOBE_LOBES_GGX_DIELECTRIC_H
 
@@ -131,8 +133,7 @@ LOBE_FN lobe_rgb lobe_ggx_dielectric_eval(lobe_ggx_dielectric p, lobe_vec3 wo, l
 LOBE_FN lobe_real lobe_ggx_dielectric_pdf(lobe_ggx_dielectric p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_ggx_dielectric_view v = lobe_ggx_dielectric_view_make(p, wo);
-	const lobe_ggx_dielectric_facet m =
-		lobe_ggx_dielectric_facet_make(p, v, lobe_ggx_dielectric_flip(wo, wi));
+	const lobe_ggx_dielectric_facet m = lobe_ggx_dielectric_facet_make(p, v, lobe_ggx_dielectric_flip(wo, wi));
 	const lobe_real two_sigma = v.o.z + v.t_o;
 	const lobe_real pdf = lobe_finite_or_zero(m.prob * (m.density + m.density) / two_sigma);
 	return m.valid ? pdf : LOBE_R(0.0);
@@ -168,9 +169,9 @@ LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 
 	const lobe_real masked = LOBE_R(0.5) * two_sigma * lobe_ggx_dielectric_g2_over_cos(p, v, i, reflects);
 	const lobe_real g2_over_g1 = delta ? one : masked;
 	const lobe_real w = lobe_finite_or_zero(g2_over_g1 * (reflects ? one : v.scale));
-	const lobe_uint event = reflects ? LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY
-					 : (delta ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA
-						  : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY);
+	const lobe_uint event =
+		reflects ? LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY
+			 : (delta ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY);
 	return lobe_sample_select(right_side & (pdf > zero), wi, lobe_rgb_make(w, w, w), pdf, event);
 }
 
