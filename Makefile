@@ -7,6 +7,8 @@ DESTDIR ?=
 CFLAGS ?= -O2 -g
 
 VERSION := 0.1.0
+# make V=1 shows the commands.
+Q := $(if $(V),,@)
 B := build
 WARN := -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion
 # The same bits everywhere: no fusing of a*b+c behind the source's back. The other two let loops vectorise.
@@ -43,32 +45,39 @@ $(B)/obj $(B)/gen $(B)/tests $(B)/bench:
 	@mkdir -p $@
 
 $(B)/obj/%.o: src/%.c $(HEADERS) | $(B)/obj
-	$(CC) $(LIB_CFLAGS) -c $< -o $@
+	@echo "  cc    $@"
+	$(Q)$(CC) $(LIB_CFLAGS) -c $< -o $@
 
 define ROW_RULE
 $(B)/obj/rows_$(1)_$(2).o: src/rows.c $(HEADERS) | $(B)/obj
-	$(CC) $(ROW_CFLAGS) $(ISA_$(1)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) -c src/rows.c -o $$@
+	@echo "  cc    $$@"
+	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) -c src/rows.c -o $$@
 endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))
 
 # The OpenCL source is the headers themselves, put into the library as text.
 $(B)/embed: cl/embed.c
 	@mkdir -p $(B)
-	$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $< -o $@
+	@echo "  link  $@"
+	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $< -o $@
 
 $(B)/gen/opencl_source.c: $(B)/embed cl/kernels.cl $(HEADERS) | $(B)/gen
-	$(B)/embed include/lobe/shading.h lobe_opencl_source cl/kernels.cl lobe_opencl_kernels > $@.tmp
+	@echo "  embed $@"
+	$(Q)$(B)/embed include/lobe/shading.h lobe_opencl_source cl/kernels.cl lobe_opencl_kernels > $@.tmp
 	@mv $@.tmp $@
 
 $(B)/obj/opencl_source.o: $(B)/gen/opencl_source.c | $(B)/obj
-	$(CC) $(LIB_CFLAGS) -c $< -o $@
+	@echo "  cc    $@"
+	$(Q)$(CC) $(LIB_CFLAGS) -c $< -o $@
 
 $(B)/liblobe.a: $(OBJECTS)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	@echo "  ar    $@"
+	$(Q)$(AR) rcs $@ $^
 
 $(B)/liblobe.so: $(OBJECTS)
-	$(CC) $(CFLAGS) -shared -Wl,-soname,liblobe.so.0 $^ $(LIBS) -o $@
+	@echo "  link  $@"
+	$(Q)$(CC) $(CFLAGS) -shared -Wl,-soname,liblobe.so.0 $^ $(LIBS) -o $@
 
 # --- examples ---------------------------------------------------------------------------------------------------------
 
@@ -76,19 +85,23 @@ EXAMPLE_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude
 
 # Needs no library: the headers are all.
 $(B)/minimal: examples/minimal.c $(HEADERS)
-	$(CC) $(EXAMPLE_CFLAGS) $< -o $@ -lm
+	@echo "  link  $@"
+	$(Q)$(CC) $(EXAMPLE_CFLAGS) $< -o $@ -lm
 
 $(B)/batch: examples/batch.c $(B)/liblobe.a
-	$(CC) $(EXAMPLE_CFLAGS) $< $(B)/liblobe.a -o $@ $(LIBS)
+	@echo "  link  $@"
+	$(Q)$(CC) $(EXAMPLE_CFLAGS) $< $(B)/liblobe.a -o $@ $(LIBS)
 
 $(B)/own_kernel: examples/own_kernel.c $(B)/liblobe.a
-	$(CC) $(EXAMPLE_CFLAGS) $< $(B)/liblobe.a -o $@ -lOpenCL $(LIBS)
+	@echo "  link  $@"
+	$(Q)$(CC) $(EXAMPLE_CFLAGS) $< $(B)/liblobe.a -o $@ -lOpenCL $(LIBS)
 
 # The gallery traces rays on the host and runs where it is built: there lobe_fma can be one instruction. Same bits.
 NATIVE := $(shell $(CC) -march=native -E -x c /dev/null >/dev/null 2>&1 && echo -march=native)
 GALLERY := $(wildcard examples/gallery/*.c)
 $(B)/gallery: $(GALLERY) $(wildcard examples/gallery/*.h) $(B)/liblobe.a
-	$(CC) $(EXAMPLE_CFLAGS) $(NATIVE) -Iexamples/gallery $(GALLERY) $(B)/liblobe.a -o $@ \
+	@echo "  link  $@"
+	$(Q)$(CC) $(EXAMPLE_CFLAGS) $(NATIVE) -Iexamples/gallery $(GALLERY) $(B)/liblobe.a -o $@ \
 		$$(pkg-config --cflags OpenEXR libpng) -lOpenEXRCore -lOpenEXR $$(pkg-config --libs libpng) $(LIBS)
 
 # --- demo, tests, benchmarks: each installs what it lacks, then builds on all processors --------------------------------
@@ -98,7 +111,7 @@ AGAIN := $(MAKE) --no-print-directory
 
 run:
 	@./deps.sh run
-	@$(AGAIN) $(JOBS) all $(B)/own_kernel $(B)/gallery
+	@$(AGAIN) all $(B)/own_kernel $(B)/gallery
 	@echo; echo "== one lobe, header only (build/minimal) =="
 	@$(B)/minimal
 	@echo; echo "== a batch on each device (build/batch) =="
@@ -116,31 +129,35 @@ TEST_SHARED := $(filter-out $(TEST_MAINS),$(wildcard tests/*.c))
 TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(TEST_MAINS))
 
 $(B)/tests/unity.o: tests/vendor/unity/unity.c | $(B)/tests
-	$(CC) -std=c99 $(CFLAGS) -c $< -o $@
+	@echo "  cc    $@"
+	$(Q)$(CC) -std=c99 $(CFLAGS) -c $< -o $@
 
 # The reference build of the lobes in double precision.
 $(B)/tests/double.o: private TEST_CFLAGS += -DLOBE_DOUBLE=1
 $(B)/tests/%.o: tests/%.c $(HEADERS) $(TEST_HEADERS) | $(B)/tests
-	$(CC) $(TEST_CFLAGS) -c $< -o $@
+	@echo "  cc    $@"
+	$(Q)$(CC) $(TEST_CFLAGS) -c $< -o $@
 
 $(B)/tests/libtest.a: $(patsubst tests/%.c,$(B)/tests/%.o,$(TEST_SHARED)) $(B)/tests/unity.o
 	@rm -f $@
-	$(AR) rcs $@ $^
+	@echo "  ar    $@"
+	$(Q)$(AR) rcs $@ $^
 
 $(B)/tests/%: $(B)/tests/%.o $(B)/tests/libtest.a $(B)/liblobe.a
-	$(CC) $(CFLAGS) $< $(B)/tests/libtest.a $(B)/liblobe.a -o $@ $(TEST_LIBS)
+	@echo "  link  $@"
+	$(Q)$(CC) $(CFLAGS) $< $(B)/tests/libtest.a $(B)/liblobe.a -o $@ $(TEST_LIBS)
 
 .SECONDARY:
 
 test:
 	@./deps.sh test
-	@$(AGAIN) $(JOBS) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
+	@$(AGAIN) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
 	@CC="$(CC)" tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c)) $(wildcard tests/test_*.sh)
 
 # The slow sweeps: every float through every elementary function, and the tests' larger settings.
 test-long:
 	@./deps.sh test
-	@$(AGAIN) $(JOBS) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
+	@$(AGAIN) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
 	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/long_*.c)) \
 		$(wildcard tests/test_*.sh)
 
@@ -150,11 +167,12 @@ vectors: $(B)/tests/tool_vectors
 
 THROUGHPUT := $(patsubst %,bench/%.c,throughput timing scenes inputs measure machine options build_time pruning)
 $(B)/bench/throughput: $(THROUGHPUT) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
-	$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(THROUGHPUT) $(B)/liblobe.a -o $@ $(LIBS)
+	@echo "  link  $@"
+	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(THROUGHPUT) $(B)/liblobe.a -o $@ $(LIBS)
 
 bench:
 	@./deps.sh all
-	@$(AGAIN) $(JOBS) all $(B)/bench/throughput
+	@$(AGAIN) all $(B)/bench/throughput
 	@$(B)/bench/throughput
 
 check:
@@ -196,5 +214,10 @@ help:
 		'make deps       installs all that the targets above need' \
 		'make install    PREFIX=/usr/local DESTDIR=' \
 		'make clean      removes build/ and out/'
+
+# All processors, unless -j says otherwise.
+ifeq (,$(filter -j%,$(MAKEFLAGS)))
+MAKEFLAGS += $(JOBS)
+endif
 
 .PHONY: all run test test-long vectors bench check deps install clean help

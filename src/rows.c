@@ -36,8 +36,9 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 #define FETCH(which)                                                                                                   \
 	PARAMS p;                                                                                                      \
 	FETCH_4(0, which)                                                                                              \
-	FETCH_4(4, which) FETCH_4(8, which) FETCH_4(12, which) FETCH_4(16, which) FETCH_4(20, which)                   \
-		FETCH_4(24, which) FETCH_4(28, which)
+	FETCH_4(4, which)                                                                                              \
+	FETCH_4(8, which) FETCH_4(12, which) FETCH_4(16, which) FETCH_4(20, which) FETCH_4(24, which)                  \
+		FETCH_4(28, which)
 
 /* clang's cost model would leave a cheap lobe's gathers scalar on SSE2. */
 #ifdef __clang__

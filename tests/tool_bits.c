@@ -2,7 +2,7 @@
  *
  *	tool_bits DEVICE
  *
- * prints, for each case of each lobe, a 64-bit hash over the outputs of 8 k random and all extreme inputs. */
+ * prints, for each case of each lobe, a 64-bit hash over the outputs of 80 k random and all extreme inputs. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,7 +65,7 @@ int main(int argc, char **argv)
 	}
 	if (lobe_device_open(&device, argv[1]) != LOBE_OK)
 		stop(argv[1]);
-	inputs random = inputs_alloc(8192), extreme = inputs_extreme();
+	inputs random = inputs_alloc(81920), extreme = inputs_extreme();
 	inputs_random(random, 1000000);
 	fprintf(stderr, "%s\n", lobe_device_name(device));
 	for (size_t i = 0; i < case_count(); i++) {

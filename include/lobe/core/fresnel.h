@@ -103,8 +103,9 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
- * Let (A + iK)^2 = (n + ik)^2 - sin^2. The usual form (Born and Wolf, 14.2) needs 2Ac and A^2 + K^2 =: q, with A = sqrt((q + t)/2), t = n^2 - k^2 - s^2. For a metal t < 0 and q + t cancels; then A = nk/K with
- * K = sqrt((q - t)/2), which does not. Multiplied through by B = max(A, K), both cases need one root and no division:
+ * Let (A + iK)^2 = (n + ik)^2 - sin^2. The usual form (Born and Wolf, 14.2) needs 2Ac and A^2 + K^2 =: q, with
+ * A = sqrt((q + t)/2), t = n^2 - k^2 - s^2. For a metal t < 0 and q + t cancels; then A = nk/K with K = sqrt((q - t)/2),
+ * which does not. Multiplied through by B = max(A, K), both cases need one root and no division:
  *	F_s = N/D,  N, D = (q + c^2) B -+ X c,        X = q + t if t >= 0, else 2nk
  *	F = F_s E/(E + X c s^2),                      E = (q c^2 + s^4) B
  * where the second line is (F_s + F_p)/2. Error 2.8e-7 relative for real metals, 3.1e-7 absolute over the domain, but

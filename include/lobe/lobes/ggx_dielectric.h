@@ -152,7 +152,7 @@ LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 
 	const int delta = (p.delta != 0u) & !reflects;
 	const lobe_vec3 mirrored = lobe_reflect(v.o, m, c);
 	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, fr);
-	/* Towards the thinner side the rounding of c grows by 1/e^2; the other way bent is unit, and at e = 1 it is -o. */
+	/* Towards the thinner side the rounding of c grows by 1/e^2; else bent is unit, and at e = 1 it is -o. */
 	const lobe_real inv_length = one / lobe_sqrt(lobe_dot(bent, bent));
 	const lobe_real to_unit = v.e < one ? inv_length : one;
 	const lobe_vec3 refracted = lobe_vec3_scale(bent, to_unit);
