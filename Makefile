@@ -13,7 +13,7 @@ B := build
 WARN := -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion
 # The same bits everywhere: no fusing of a*b+c behind the source's back. The other two let loops vectorise.
 EXACT := -ffp-contract=off -fno-math-errno -fno-trapping-math
-LIB_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -fPIC -Iinclude -Isrc
+LIB_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -fPIC -fvisibility=hidden -Iinclude -Isrc
 LIBS := -lm -ldl -lpthread
 
 # --- library ----------------------------------------------------------------------------------------------------------
@@ -31,11 +31,12 @@ ISA_avx512 := -mavx2 -mfma -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-v
 
 # For gcc: jump threading would copy divisions into both arms of a select, and the loops are long chains that gain from
 # scheduling before registers are given out.
-ROW_CFLAGS := $(LIB_CFLAGS) -O3 $(foreach f,-fno-thread-jumps -fschedule-insns -fsched-pressure,\
+ROW_OPT ?= -O3
+ROW_CFLAGS := $(LIB_CFLAGS) $(ROW_OPT) $(foreach f,-fno-thread-jumps -fschedule-insns -fsched-pressure,\
 	$(shell $(CC) -Werror $(f) -E -x c /dev/null >/dev/null 2>&1 && echo $(f)))
 
 SOURCES := $(wildcard src/*.c)
-HEADERS := $(wildcard include/lobe/*.h include/lobe/*/*.h include/lobe/*/*.def src/*.h)
+HEADERS := Makefile $(wildcard include/lobe/*.h include/lobe/*/*.h include/lobe/*/*.def src/*.h)
 ROW_OBJECTS := $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(B)/obj/rows_$(i)_$(l).o))
 OBJECTS := $(patsubst src/%.c,$(B)/obj/%.o,$(filter-out src/rows.c,$(SOURCES))) $(ROW_OBJECTS) $(B)/obj/opencl_source.o
 
@@ -63,7 +64,8 @@ $(B)/embed: cl/embed.c
 
 $(B)/gen/opencl_source.c: $(B)/embed cl/kernels.cl $(HEADERS) | $(B)/gen
 	@echo "  embed $@"
-	$(Q)$(B)/embed include/lobe/shading.h lobe_opencl_source cl/kernels.cl lobe_opencl_kernels > $@.tmp
+	$(Q)echo '#include "lobe/batch.h"' > $@.tmp
+	$(Q)$(B)/embed include/lobe/shading.h lobe_opencl_source cl/kernels.cl lobe_opencl_kernels >> $@.tmp
 	@mv $@.tmp $@
 
 $(B)/obj/opencl_source.o: $(B)/gen/opencl_source.c | $(B)/obj
@@ -84,7 +86,7 @@ $(B)/liblobe.so: $(OBJECTS)
 EXAMPLE_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude
 
 # Needs no library: the headers are all.
-$(B)/minimal: examples/minimal.c $(HEADERS)
+$(B)/minimal: examples/minimal.c $(HEADERS) | $(B)/obj
 	@echo "  link  $@"
 	$(Q)$(CC) $(EXAMPLE_CFLAGS) $< -o $@ -lm
 
@@ -106,12 +108,12 @@ $(B)/gallery: $(GALLERY) $(wildcard examples/gallery/*.h) $(B)/liblobe.a
 
 # --- demo, tests, benchmarks: each installs what it lacks, then builds on all processors --------------------------------
 
-JOBS := -j$(shell nproc 2>/dev/null || echo 2)
-AGAIN := $(MAKE) --no-print-directory
+# -j of the caller's, or one job for each processor.
+JOBS = $(if $(findstring -j,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 2))
 
 run:
 	@./deps.sh run
-	@$(AGAIN) all $(B)/own_kernel $(B)/gallery
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery
 	@echo; echo "== one lobe, header only (build/minimal) =="
 	@$(B)/minimal
 	@echo; echo "== a batch on each device (build/batch) =="
@@ -151,13 +153,13 @@ $(B)/tests/%: $(B)/tests/%.o $(B)/tests/libtest.a $(B)/liblobe.a
 
 test:
 	@./deps.sh test
-	@$(AGAIN) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
 	@CC="$(CC)" tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c)) $(wildcard tests/test_*.sh)
 
 # The slow sweeps: every float through every elementary function, and the tests' larger settings.
 test-long:
 	@./deps.sh test
-	@$(AGAIN) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
 	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/long_*.c)) \
 		$(wildcard tests/test_*.sh)
 
@@ -165,15 +167,16 @@ test-long:
 vectors: $(B)/tests/tool_vectors
 	$(B)/tests/tool_vectors tests/vectors
 
-THROUGHPUT := $(patsubst %,bench/%.c,throughput timing scenes inputs measure machine options build_time pruning)
+THROUGHPUT := $(patsubst %,bench/%.c,throughput timing scenes inputs measure machine options build_time pruning targets)
 $(B)/bench/throughput: $(THROUGHPUT) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
 	@echo "  link  $@"
 	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(THROUGHPUT) $(B)/liblobe.a -o $@ $(LIBS)
 
 bench:
 	@./deps.sh all
-	@$(AGAIN) all $(B)/bench/throughput
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/bench/throughput
 	@$(B)/bench/throughput
+	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
 
 check:
 	@./deps.sh all
@@ -196,11 +199,15 @@ install: $(B)/liblobe.a $(B)/liblobe.so
 	ln -sf liblobe.so.0 $(DESTDIR)$(PREFIX)/lib/liblobe.so
 	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' 'Name: lobe' \
 		'Description: BSDF lobes in C99 and OpenCL, with the same bits' 'Version: $(VERSION)' \
-		'Cflags: -I$${includedir}' 'Libs: -L$${libdir} -llobe' 'Libs.private: $(LIBS)' \
+		'Cflags: -I$${includedir} -ffp-contract=off' 'Libs: -L$${libdir} -llobe' 'Libs.private: $(LIBS)' \
 		> $(DESTDIR)$(PREFIX)/lib/pkgconfig/lobe.pc
 
 clean:
 	rm -rf $(B) out
+
+# What tests ask: make print-ROW_CFLAGS
+print-%:
+	@echo '$($*)'
 
 help:
 	@printf '%s\n' \
@@ -215,9 +222,11 @@ help:
 		'make install    PREFIX=/usr/local DESTDIR=' \
 		'make clean      removes build/ and out/'
 
-# All processors, unless -j says otherwise.
-ifeq (,$(filter -j%,$(MAKEFLAGS)))
-MAKEFLAGS += $(JOBS)
-endif
-
 .PHONY: all run test test-long vectors bench check deps install clean help
+
+# Several goals at once (make clean all) in their order.
+ifeq ($(MAKELEVEL),0)
+ifneq (,$(word 2,$(MAKECMDGOALS)))
+.NOTPARALLEL:
+endif
+endif

@@ -204,7 +204,7 @@ int bench_build_times(const char *program, const bench_device *devices, int coun
 	      csv);
 	for (int d = 0; d < count; d++)
 		for (int i = 0; ok && i <= BENCH_LOBES; i++)
-			if (strncmp(devices[d].label, "opencl", 6) == 0 && (lobe < 0 || lobe == i)) {
+			if (bench_is_opencl(&devices[d]) && (lobe < 0 || lobe == i)) {
 				const size_t all = runs < RUNS_MAX ? runs : RUNS_MAX;
 				ok = row(program, &devices[d], i, bench_now() - start < seconds ? all : 1, csv);
 				rows += ok;

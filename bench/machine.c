@@ -48,7 +48,7 @@ static int find_line(const char *path, const char *key, char *value, size_t size
 	return found;
 }
 
-void bench_print_machine(const bench_device *devices, int count)
+void bench_print_machine(void)
 {
 	char text[1024];
 	struct utsname system;
@@ -60,8 +60,6 @@ void bench_print_machine(const bench_device *devices, int count)
 	if (known)
 		printf("system     %s %s %s\n", system.sysname, system.release, system.machine);
 	printf("compiler   %s\n", COMPILER);
-	for (int i = 0; i < count; i++)
-		printf("device     %-10s %s\n", devices[i].label, lobe_device_name(devices[i].device));
 	strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", gmtime(&now));
 	printf("date       %s\n", text);
 	if (bench_command("git describe --always --dirty --abbrev=12 2>/dev/null", text, sizeof text))

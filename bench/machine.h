@@ -1,4 +1,5 @@
-/* machine.h - the head of a benchmark's output: what it ran on and what was compiled. */
+/* machine.h - the head of a benchmark's output: what it ran on and what was compiled. bench_devices_open adds the
+ * devices. */
 #ifndef LOBE_BENCH_MACHINE_H
 #define LOBE_BENCH_MACHINE_H
 
@@ -6,8 +7,8 @@
 
 #include "scenes.h"
 
-/* Processor, compiler, devices with their instruction sets, date, commit, and how busy the machine already is. */
-void bench_print_machine(const bench_device *devices, int count);
+/* Processor, compiler, date, commit, and how busy the machine already is. */
+void bench_print_machine(void);
 
 /* Runs a shell command and keeps the last line of its output, without the line's end. 0: it failed or wrote nothing. */
 int bench_command(const char *command, char *line, size_t size);

@@ -27,6 +27,7 @@ typedef struct {
 	lobe_scene *scene[BENCH_DEVICES_MAX]; /* of the lobe at hand */
 	cell *cell;                           /* of the lobe at hand, as results->result[first..] */
 	size_t first;
+	double *ratio; /* [runs] */
 } work;
 
 static int fail(const char *what)
@@ -84,15 +85,41 @@ static int time_cell(const cell *c, const bench_result *r, size_t run)
 	return 1;
 }
 
-static void summarise(const cell *c, bench_result *r, size_t runs)
+/* The median over the rounds of rate over base. ratio: room for them. */
+static double median_ratio(const double *rate, const double *base, double *ratio, size_t runs)
 {
-	double *const ratio = malloc(runs * sizeof *ratio);
-	for (size_t i = 0; ratio && i < runs; i++)
-		ratio[i] = 100.0 * c->rate[i] / c->copy_rate[i];
-	r->copy_share = ratio ? bench_stats_of(ratio, runs).median : 0.0;
-	r->rate = bench_stats_of(c->rate, runs);
-	r->copy_rate = bench_stats_of(c->copy_rate, runs);
-	free(ratio);
+	for (size_t i = 0; i < runs; i++)
+		ratio[i] = rate[i] / base[i];
+	return bench_stats_of(ratio, runs).median;
+}
+
+/* The plan's native device with all threads, or -1. */
+static int native_device(const bench_plan *plan)
+{
+	for (int d = 0; d < plan->device_count; d++)
+		if (strncmp(plan->devices[d].label, "native", 6) == 0 && plan->devices[d].threads == bench_processors())
+			return d;
+	return -1;
+}
+
+/* The results of the lobe from its rounds. Ratios first: the statistics sort the rates, and so lose the rounds. */
+static void summarise(const work *w, size_t cells)
+{
+	const size_t runs = w->plan->runs;
+	const int native = native_device(w->plan);
+	bench_result *const results = &w->results->result[w->first];
+	for (size_t i = 0; i < cells; i++) {
+		const cell *c = &w->cell[i];
+		bench_result *r = &results[i];
+		r->copy_share = 100.0 * median_ratio(c->rate, c->copy_rate, w->ratio, runs);
+		/* The devices of a verb and size lie side by side, in the plan's order. */
+		if (native >= 0 && bench_is_opencl(&w->plan->devices[r->device]))
+			r->native_ratio = median_ratio(c->rate, (c - r->device + native)->rate, w->ratio, runs);
+	}
+	for (size_t i = 0; i < cells; i++) {
+		results[i].rate = bench_stats_of(w->cell[i].rate, runs);
+		results[i].copy_rate = bench_stats_of(w->cell[i].copy_rate, runs);
+	}
 }
 
 /* --- one lobe ----------------------------------------------------------------------------------------------------- */
@@ -146,8 +173,8 @@ static int measure_lobe(work *w, int lobe)
 			ok = time_cell(&w->cell[i], &w->results->result[w->first + i], run);
 	}
 	bench_progress(NULL, 0, 0);
-	for (size_t i = 0; ok && i < cells; i++)
-		summarise(&w->cell[i], &w->results->result[w->first + i], plan->runs);
+	if (ok)
+		summarise(w, cells);
 	for (int d = 0; d < plan->device_count; d++)
 		lobe_scene_destroy(w->scene[d]);
 	return ok;
@@ -194,7 +221,7 @@ int bench_measure(const bench_plan *plan, bench_results *results)
 	results->count = 0;
 	results->result = calloc(cells * BENCH_LOBES, sizeof *results->result);
 	w.cell = calloc(cells, sizeof *w.cell);
-	double *const rates = malloc(cells * 2 * plan->runs * sizeof *rates);
+	double *const rates = malloc((cells * 2 + 1) * plan->runs * sizeof *rates);
 	ok = results->result && w.cell && rates && bench_arrays_create(&w.arrays, n) && create_copies(&w, n);
 	if (!ok)
 		fail("out of memory or threads; --n takes fewer elements");
@@ -202,6 +229,7 @@ int bench_measure(const bench_plan *plan, bench_results *results)
 		w.cell[i].rate = rates + 2 * i * plan->runs;
 		w.cell[i].copy_rate = w.cell[i].rate + plan->runs;
 	}
+	w.ratio = ok ? rates + 2 * cells * plan->runs : NULL;
 	for (int lobe = 0; ok && lobe < BENCH_LOBES; lobe++)
 		if (chosen(plan->lobe, lobe))
 			ok = measure_lobe(&w, lobe);

@@ -3,7 +3,8 @@
  * All verbs and devices of a lobe are timed in rounds: each round times every one of them once and, right after it, a
  * plain copy of as many bytes on as many threads, so that other programs on the machine hit all of them alike. The
  * share of the copy is the median over the rounds of the ratio within a round. It can pass 100 %: a verb that mostly
- * reads moves its bytes for less than a copy, half of whose bytes are written. */
+ * reads moves its bytes for less than a copy, half of whose bytes are written. An OpenCL device is compared in the same
+ * way with the native one that has all threads. */
 #ifndef LOBE_BENCH_MEASURE_H
 #define LOBE_BENCH_MEASURE_H
 
@@ -32,6 +33,7 @@ typedef struct {
 	bench_stats rate;       /* million elements per second */
 	bench_stats copy_rate;  /* the same of the copy */
 	double copy_share;      /* rate over copy_rate, in percent */
+	double native_ratio;    /* of an OpenCL device: rate over the native one's with all threads; 0: not measured */
 } bench_result;
 
 typedef struct {

@@ -75,33 +75,47 @@ size_t bench_processors(void)
 	return online < 1 ? 1 : (size_t)online;
 }
 
+int bench_is_opencl(const bench_device *device) { return strncmp(device->label, "opencl", 6) == 0; }
+
 static int open_one(bench_device *d, const char *label)
 {
 	const char *const number = strncmp(label, "native:", 7) == 0 ? label + 7 : NULL;
-	if (lobe_device_open(&d->device, label) != LOBE_OK) {
-		fprintf(stderr, "throughput: %s is skipped: %s\n", label, lobe_error_message());
+	if (lobe_device_open(&d->device, label) != LOBE_OK)
 		return 0;
-	}
 	snprintf(d->label, sizeof d->label, "%s", label);
 	d->threads = number ? (size_t)strtoul(number, NULL, 10) : bench_processors();
+	printf("device     %-10s %s\n", label, lobe_device_name(d->device));
 	return 1;
+}
+
+static int open_or_skip(bench_device *d, const char *label)
+{
+	const int opened = open_one(d, label);
+	if (!opened)
+		printf("device     %-10s skipped: %s\n", label, lobe_error_message());
+	return opened;
 }
 
 int bench_devices_open(bench_device *devices, const char *only)
 {
 	int count = 0;
 	size_t opencl = 0;
-	if (only)
-		return open_one(&devices[0], only);
-	count += open_one(&devices[count], "native:1");
+	if (only) {
+		count = open_one(&devices[0], only);
+		if (count == 0)
+			fprintf(stderr, "throughput: %s: %s\n", only, lobe_error_message());
+		return count;
+	}
+	count += open_or_skip(&devices[count], "native:1");
 	if (bench_processors() > 1)
-		count += open_one(&devices[count], "native");
-	if (lobe_device_count("opencl", &opencl) != LOBE_OK)
-		fprintf(stderr, "throughput: no OpenCL devices: %s\n", lobe_error_message());
+		count += open_or_skip(&devices[count], "native");
+	/* Where there is none, the first says why. */
+	if (lobe_device_count("opencl", &opencl) != LOBE_OK || opencl == 0)
+		opencl = 1;
 	for (size_t i = 0; i < opencl && count < BENCH_DEVICES_MAX; i++) {
 		char label[32];
 		snprintf(label, sizeof label, "opencl:%zu", i);
-		count += open_one(&devices[count], label);
+		count += open_or_skip(&devices[count], label);
 	}
 	return count;
 }

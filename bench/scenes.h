@@ -44,8 +44,11 @@ typedef struct {
 /* Processors online. */
 size_t bench_processors(void);
 
-/* Opens native:1, native and every OpenCL device, or the one of that name. The number opened. A device that does not
- * open is skipped with a word on stderr. */
+int bench_is_opencl(const bench_device *device);
+
+/* Opens native:1, native and every OpenCL device, or the one of that name, and prints a line for each. The number
+ * opened. Of the first, one that does not open is printed as skipped, with the reason; the one of that name is an
+ * error, on stderr. */
 int bench_devices_open(bench_device *devices, const char *only);
 void bench_devices_close(bench_device *devices, int count);
 

@@ -1,4 +1,5 @@
-/* throughput.c - the benchmark of speed and size: prints three tables and writes them as CSV.
+/* throughput.c - the benchmark of speed and size: prints three tables, which it writes as CSV, and what they say of the
+ * project's targets.
  *
  *	throughput.csv  every lobe by verb and device: elements per second, against a plain copy (measure.h)
  *	build_time.csv  the build time of OpenCL programs (build_time.h)
@@ -14,6 +15,7 @@
 #include "measure.h"
 #include "options.h"
 #include "pruning.h"
+#include "targets.h"
 
 enum { IN_CACHE = 16384 /* elements: at most 56 bytes each, they fit into the second-level caches of two cores */ };
 
@@ -25,6 +27,10 @@ static void print_row(const bench_plan *plan, const bench_results *results, cons
 	printf("%-18s %-9s %-10s %9zu %5zu %9.1f %8.1f %9.2f %6zu %8.1f", bench_lobe_name(r->lobe),
 	       bench_verb_name(r->verb), plan->devices[r->device].label, r->n, plan->runs, r->rate.median,
 	       bench_spread(&r->rate), 1e3 / r->rate.median, r->bytes, r->copy_share);
+	if (r->native_ratio > 0.0)
+		printf(" %9.2f", r->native_ratio);
+	else
+		printf(" %9s", "-");
 	if (small)
 		printf(" %9.1f", small->rate.median);
 	printf("\n");
@@ -32,10 +38,14 @@ static void print_row(const bench_plan *plan, const bench_results *results, cons
 
 static void write_row(FILE *csv, const bench_plan *plan, const bench_result *r)
 {
-	fprintf(csv, "%s,%s,%s,%zu,%zu,%zu,%.3f,%.2f,%.3f,%.3f,%.4f,%zu,%.3f,%.3f,%.2f\n", bench_lobe_name(r->lobe),
+	fprintf(csv, "%s,%s,%s,%zu,%zu,%zu,%.3f,%.2f,%.3f,%.3f,%.4f,%zu,%.3f,%.3f,%.2f,", bench_lobe_name(r->lobe),
 		bench_verb_name(r->verb), plan->devices[r->device].label, plan->devices[r->device].threads, r->n,
 		plan->runs, r->rate.median, bench_spread(&r->rate), r->rate.min, r->rate.max, 1e3 / r->rate.median,
 		r->bytes, 1e-3 * r->rate.median * (double)r->bytes, r->copy_rate.median, r->copy_share);
+	if (r->native_ratio > 0.0)
+		fprintf(csv, "%.4f\n", r->native_ratio);
+	else
+		fprintf(csv, "-\n");
 }
 
 static int report(const bench_plan *plan, const bench_results *results, const char *path)
@@ -45,16 +55,16 @@ static int report(const bench_plan *plan, const bench_results *results, const ch
 		return 0;
 	printf("\nThroughput: medians; spread is the interquartile range. bytes: what the verb reads and writes for\n"
 	       "an element. of copy: against memcpy of as many bytes, half read and half written, on as many threads,\n"
-	       "run in turn with it.");
+	       "run in turn with it. of native: against the native device with all threads, in the same rounds.");
 	if (plan->size_count > 1)
-		printf(" in cache: batches of %zu elements instead.", plan->sizes[1]);
-	printf("\n\n%-18s %-9s %-10s %9s %5s %9s %8s %9s %6s %8s%s\n", "lobe", "verb", "device", "elements", "runs",
-	       "median", "spread", "time", "bytes", "of copy", plan->size_count > 1 ? "  in cache" : "");
-	printf("%-18s %-9s %-10s %9s %5s %9s %8s %9s %6s %8s%s\n", "", "", "", "", "", "M/s", "%", "ns", "", "%",
-	       plan->size_count > 1 ? "       M/s" : "");
+		printf("\nin cache: batches of %zu elements instead.", plan->sizes[1]);
+	printf("\n\n%-18s %-9s %-10s %9s %5s %9s %8s %9s %6s %8s %9s%s\n", "lobe", "verb", "device", "elements", "runs",
+	       "median", "spread", "time", "bytes", "of copy", "of native", plan->size_count > 1 ? "  in cache" : "");
+	printf("%-18s %-9s %-10s %9s %5s %9s %8s %9s %6s %8s %9s%s\n", "", "", "", "", "", "M/s", "%", "ns", "", "%",
+	       "x", plan->size_count > 1 ? "       M/s" : "");
 	fputs("lobe,verb,device,threads,elements,runs,median_melements_per_s,iqr_percent,min_melements_per_s,"
 	      "max_melements_per_s,ns_per_element,bytes_per_element,gbytes_per_s,copy_melements_per_s,"
-	      "copy_share_percent\n",
+	      "copy_share_percent,native_ratio\n",
 	      csv);
 	for (size_t i = 0; i < results->count; i++) {
 		const bench_result *r = &results->result[i];
@@ -109,16 +119,16 @@ int main(int argc, char **argv)
 	const int status = bench_options_parse(&o, argc, argv);
 	if (status != 0)
 		return status == 2 ? 2 : 0;
+	bench_print_machine();
 	const int count = bench_devices_open(devices, o.device);
-	if (count == 0)
+	if (count == 0 && o.device)
 		return 2;
 	/* The library lies in build/, this program in build/bench/. */
 	char *const library = beside(argv[0], "..");
 	char *const build_csv = beside(o.csv, "build_time.csv"), *const pruning_csv = beside(o.csv, "pruning.csv");
 	const bench_plan plan = make_plan(&o, devices, count);
 	ok = library && build_csv && pruning_csv;
-	bench_print_machine(devices, count);
-	if (o.throughput || o.pruning)
+	if (count > 0 && (o.throughput || o.pruning))
 		ok = ok && bench_measure(&plan, &results);
 	if (o.throughput)
 		ok = ok && report(&plan, &results, o.csv);
@@ -126,6 +136,8 @@ int main(int argc, char **argv)
 		ok = ok && bench_build_times(argv[0], devices, count, o.lobe, o.quick ? 1 : 3, 25.0, build_csv);
 	if (o.pruning)
 		ok = ok && bench_pruning(&plan, &results, library, pruning_csv);
+	if (ok)
+		bench_print_targets(&plan, &results);
 	free(library);
 	free(build_csv);
 	free(pruning_csv);

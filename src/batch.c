@@ -171,10 +171,9 @@ void lobe_scene_destroy(lobe_scene *scene)
 
 /* --- batches ----------------------------------------------------------------------------------------------------- */
 
-/* The arrays of a job for error messages, by verb and position. */
-static const char *const in_names[2][LOBE_IN_COUNT] = {{"wo[0]", "wo[1]", "wo[2]", "wi[0]", "wi[1]", "wi[2]"},
-						       {"wo[0]", "wo[1]", "wo[2]", "u[0]", "u[1]", "u[2]"}};
-static const char *const out_names[2][LOBE_OUT_COUNT] = {
+const char *const lobe_in_names[2][LOBE_IN_COUNT] = {{"wo[0]", "wo[1]", "wo[2]", "wi[0]", "wi[1]", "wi[2]"},
+						     {"wo[0]", "wo[1]", "wo[2]", "u[0]", "u[1]", "u[2]"}};
+const char *const lobe_out_names[2][LOBE_OUT_COUNT] = {
 	{"f[0]", "f[1]", "f[2]", "pdf", "", "", "", ""},
 	{"sample_wi[0]", "sample_wi[1]", "sample_wi[2]", "weight[0]", "weight[1]", "weight[2]", "sample_pdf", "event"}};
 
@@ -183,7 +182,7 @@ static lobe_status check_presence(const lobe_job *job, int sample, const char *c
 {
 	for (int i = 0; i < LOBE_IN_COUNT; i++)
 		if (!job->in[i])
-			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s is NULL", call, in_names[sample][i]);
+			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s is NULL", call, lobe_in_names[sample][i]);
 	int wanted = 0;
 	for (int i = 0; i < LOBE_OUT_COUNT; i++)
 		wanted += job->out[i] != NULL;
@@ -193,8 +192,8 @@ static lobe_status check_presence(const lobe_job *job, int sample, const char *c
 		for (int i = first; i < first + 3; i++)
 			if (!job->out[i] != !job->out[first])
 				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s is NULL but batch->%s is not",
-						 call, out_names[sample][job->out[i] ? first : i],
-						 out_names[sample][job->out[i] ? i : first]);
+						 call, lobe_out_names[sample][job->out[i] ? first : i],
+						 lobe_out_names[sample][job->out[i] ? i : first]);
 	return LOBE_OK;
 }
 
@@ -212,11 +211,11 @@ static lobe_status check_host(const lobe_scene *scene, const lobe_job *job, int 
 	const int count = LOBE_IN_COUNT + LOBE_OUT_COUNT + 1;
 	for (int i = 0; i < LOBE_OUT_COUNT; i++) {
 		array[i] = job->out[i];
-		name[i] = out_names[sample][i];
+		name[i] = lobe_out_names[sample][i];
 	}
 	for (int i = 0; i < LOBE_IN_COUNT; i++) {
 		array[LOBE_OUT_COUNT + i] = job->in[i];
-		name[LOBE_OUT_COUNT + i] = in_names[sample][i];
+		name[LOBE_OUT_COUNT + i] = lobe_in_names[sample][i];
 	}
 	array[count - 1] = job->material;
 	name[count - 1] = "material";
@@ -313,16 +312,16 @@ static lobe_status run_device(lobe_scene *scene, lobe_job *job, int sample, cons
 			if (job->out[i] == job->out[k])
 				return lobe_fail(LOBE_ERROR_ARGUMENT,
 						 "%s: output batch->%s is the same buffer as batch->%s", call,
-						 out_names[sample][i], out_names[sample][k]);
+						 lobe_out_names[sample][i], lobe_out_names[sample][k]);
 		for (int k = 0; job->out[i] && k < LOBE_IN_COUNT; k++)
 			if (job->out[i] == job->in[k])
 				return lobe_fail(LOBE_ERROR_ARGUMENT,
 						 "%s: output batch->%s is the same buffer as batch->%s", call,
-						 out_names[sample][i], in_names[sample][k]);
+						 lobe_out_names[sample][i], lobe_in_names[sample][k]);
 		if (job->out[i] && job->out[i] == job->material)
 			return lobe_fail(LOBE_ERROR_ARGUMENT,
 					 "%s: output batch->%s is the same buffer as batch->material", call,
-					 out_names[sample][i]);
+					 lobe_out_names[sample][i]);
 	}
 	job->verb = sample ? sample_verb(job) : eval_verb(job);
 	return scene->device->ops->run_device(scene, job);

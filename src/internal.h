@@ -15,7 +15,8 @@ enum {
 	LOBE_INDEX_NONE = LOBE_COUNT /* LOBE_KIND_NONE: nothing to run, outputs 0 */
 };
 
-/* What a row loop or kernel computes, by the outputs that are wanted. LOBE_VERB(NAME, name) */
+/* What a row loop or kernel computes, by the outputs that are wanted. LOBE_VERB(NAME, name); lobe_verb_writes() tells the
+ * outputs. */
 #define LOBE_VERBS(LOBE_VERB)                                                                                          \
 	LOBE_VERB(EVAL_F, eval_f)         /* f */                                                                      \
 	LOBE_VERB(EVAL_PDF, eval_pdf)     /* pdf */                                                                    \
@@ -57,7 +58,23 @@ typedef struct {
 	void *out[LOBE_OUT_COUNT];
 } lobe_job;
 
-/* The arrays that a verb reads and can write, for loops over them. */
+/* Whether a verb writes output k (LOBE_OUT_*), be it wanted or not. */
+static inline int lobe_verb_writes(int verb, int k)
+{
+	switch (verb) {
+	case LOBE_VERB_EVAL_F:
+		return k < LOBE_OUT_PDF;
+	case LOBE_VERB_EVAL_PDF:
+		return k == LOBE_OUT_PDF;
+	case LOBE_VERB_EVAL_F_PDF:
+		return k <= LOBE_OUT_PDF;
+	case LOBE_VERB_SAMPLE_WI:
+		return k < LOBE_OUT_WEIGHT || k == LOBE_OUT_EVENT;
+	default:
+		return 1;
+	}
+}
+
 static inline int lobe_verb_is_sample(int verb) { return verb == LOBE_VERB_SAMPLE || verb == LOBE_VERB_SAMPLE_WI; }
 
 /* One backend. Each function but close and scene_destroy sets the error message when it fails. */
@@ -94,6 +111,9 @@ extern const char *const lobe_param_name[LOBE_COUNT];
 
 /* LOBE_INDEX_* of a kind, LOBE_INDEX_NONE of LOBE_KIND_NONE, -1 of anything else. (fields.c) */
 int lobe_index_of_kind(uint32_t kind);
+
+/* The arrays of a job by position, as lobe_batch calls them: [lobe_verb_is_sample(verb)][LOBE_IN_* or LOBE_OUT_*]. (batch.c) */
+extern const char *const lobe_in_names[2][LOBE_IN_COUNT], *const lobe_out_names[2][LOBE_OUT_COUNT];
 
 /* Checks every field of materials[i]; LOBE_ERROR_PARAMETER and a message that names i and the field. (fields.c) */
 lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i);

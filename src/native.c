@@ -1,7 +1,8 @@
 /* native.c - batches on the processor: picks the instruction set, cuts the batch into chunks for the threads, and in a
  * chunk of mixed lobes groups the elements so that each lobe runs its own loop (rows.c). */
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE /* sched_getaffinity */
 #include <pthread.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -92,23 +93,6 @@ typedef struct {
 
 /* --- one chunk --------------------------------------------------------------------------------------------------- */
 
-/* Which outputs a verb writes, as bits: the row loops write them all, wanted or not. */
-static unsigned written(int verb)
-{
-	switch (verb) {
-	case LOBE_VERB_EVAL_F:
-		return 0x07;
-	case LOBE_VERB_EVAL_PDF:
-		return 0x08;
-	case LOBE_VERB_EVAL_F_PDF:
-		return 0x0f;
-	case LOBE_VERB_SAMPLE:
-		return 0xff;
-	default: /* LOBE_VERB_SAMPLE_WI */
-		return 0x87;
-	}
-}
-
 /* The only lobe of the scene, or -1. */
 static int single_lobe(const lobe_scene *scene)
 {
@@ -134,10 +118,9 @@ static void run_in_place(const native_job *j, scratch *s, int lobe, const void *
 	const lobe_job *job = j->job;
 	const lobe_row one = j->device->isa.rows[lobe]->verb[job->verb].one;
 	const lobe_row many = j->device->isa.rows[lobe]->verb[job->verb].many;
-	const unsigned writes = written(job->verb);
 	int spare = 0;
 	for (int k = 0; k < LOBE_OUT_COUNT; k++)
-		spare |= (writes >> k & 1) && !job->out[k];
+		spare |= lobe_verb_writes(job->verb, k) && !job->out[k];
 	const size_t step = material || spare ? BLOCK : n;
 	for (size_t at = first; at < first + n; at += step) {
 		const size_t count = first + n - at < step ? first + n - at : step;
@@ -160,7 +143,6 @@ static void run_gathered(const native_job *j, scratch *s, int lobe, const uint32
 	const lobe_job *job = j->job;
 	const lobe_row many = j->device->isa.rows[lobe]->verb[job->verb].many;
 	const uint32_t *material = job->material;
-	const unsigned writes = written(job->verb);
 	const float *in[LOBE_IN_COUNT];
 	void *out[LOBE_OUT_COUNT];
 	for (int k = 0; k < LOBE_IN_COUNT; k++)
@@ -176,7 +158,7 @@ static void run_gathered(const native_job *j, scratch *s, int lobe, const uint32
 			s->slot[i] = j->scene->slot[material[first + order[at + i]]];
 		many(j->scene->table[lobe].params, s->slot, count, in, out);
 		for (int k = 0; k < LOBE_OUT_COUNT; k++)
-			if (job->out[k] && writes >> k & 1)
+			if (job->out[k] && lobe_verb_writes(job->verb, k))
 				for (size_t i = 0; i < count; i++)
 					memcpy(element(job->out[k], first + order[at + i]), element(out[k], i), 4);
 	}
@@ -262,6 +244,18 @@ static int choose_isa(const isa *list)
 	return -1;
 }
 
+/* Those that this process may run on. */
+static size_t processors(void)
+{
+#ifdef CPU_COUNT
+	cpu_set_t set;
+	if (sched_getaffinity(0, sizeof set, &set) == 0)
+		return (size_t)CPU_COUNT(&set);
+#endif
+	const long online = sysconf(_SC_NPROCESSORS_ONLN);
+	return online < 1 ? 1 : (size_t)online;
+}
+
 lobe_status lobe_native_open(lobe_device **out, size_t threads)
 {
 	isa list[ISA_COUNT];
@@ -270,8 +264,8 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 	if (chosen < 0)
 		return LOBE_ERROR_DEVICE;
 	if (threads == 0) {
-		const long online = sysconf(_SC_NPROCESSORS_ONLN);
-		threads = online < 1 ? 1 : (online > 1024 ? 1024 : (size_t)online);
+		const size_t here = processors();
+		threads = here < 1 ? 1 : (here > 1024 ? 1024 : here);
 	}
 	native_device *device = calloc(1, sizeof *device);
 	if (!device)

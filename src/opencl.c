@@ -66,10 +66,13 @@ static lobe_status list_devices(const lobe_cl_functions *cl, entry **list, size_
 	error = cl->clGetPlatformIDs(n, platforms, NULL);
 	if (error != CL_SUCCESS)
 		status = lobe_cl_fail("clGetPlatformIDs", error);
-	for (i = 0; i < n && status == LOBE_OK; i++)
-		status = list_platform(cl, platforms[i], list, count);
+	/* A platform that fails is passed over; its failure is told when no other has a device. */
+	for (i = 0; error == CL_SUCCESS && i < n; i++) {
+		const lobe_status failed = list_platform(cl, platforms[i], list, count);
+		status = failed != LOBE_OK ? failed : status;
+	}
 	free(platforms);
-	return status;
+	return *count ? LOBE_OK : status;
 }
 
 lobe_status lobe_opencl_count(size_t *count)

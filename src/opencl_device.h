@@ -83,8 +83,6 @@ lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program,
 /* opencl_launch.c */
 
 /* Whether output o (LOBE_OUT_*) is an argument of the verb's kernels. */
-int lobe_cl_verb_has_output(int verb, int o);
-
 /* Makes room for count elements of 4 bytes; the contents are lost when the buffer grows. */
 lobe_status lobe_cl_grow(lobe_cl_device *device, lobe_cl_buffer *buffer, size_t count);
 void lobe_cl_buffers_release(lobe_cl_device *device);

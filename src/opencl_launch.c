@@ -8,22 +8,6 @@
 #define LOBE_CL_LAUNCH_MAX ((size_t)1 << 30)
 #endif
 
-int lobe_cl_verb_has_output(int verb, int o)
-{
-	switch (verb) {
-	case LOBE_VERB_EVAL_F:
-		return o < LOBE_OUT_PDF;
-	case LOBE_VERB_EVAL_PDF:
-		return o == LOBE_OUT_PDF;
-	case LOBE_VERB_EVAL_F_PDF:
-		return o <= LOBE_OUT_PDF;
-	case LOBE_VERB_SAMPLE_WI:
-		return o < LOBE_OUT_WEIGHT || o == LOBE_OUT_EVENT;
-	default:
-		return 1;
-	}
-}
-
 /* --- kept buffers --- */
 
 lobe_status lobe_cl_grow(lobe_cl_device *device, lobe_cl_buffer *buffer, size_t count)
@@ -136,7 +120,7 @@ static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t fir
 	for (i = 0; i < LOBE_IN_COUNT; i++)
 		put_mem(&a, b->in[i]);
 	for (i = 0; i < LOBE_OUT_COUNT; i++) {
-		if (lobe_cl_verb_has_output(b->verb, i))
+		if (lobe_verb_writes(b->verb, i))
 			put_mem(&a, b->out[i]);
 	}
 	return launch(&a, kernel.local, first, last);
@@ -236,7 +220,7 @@ lobe_status lobe_cl_add_scratch(lobe_cl_shading *b, size_t count)
 	lobe_status status = LOBE_OK;
 	int i;
 	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
-		if (b->wanted[i] || !lobe_cl_verb_has_output(b->verb, i))
+		if (b->wanted[i] || !lobe_verb_writes(b->verb, i))
 			continue;
 		status = lobe_cl_grow(b->device, &b->device->out[i], count);
 		b->out[i] = b->device->out[i].mem;

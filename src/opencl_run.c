@@ -15,22 +15,6 @@
 #define LOBE_CL_COPY_MAX ((size_t)1 << 22)
 #endif
 
-/* An array's name in lobe_batch, for messages. */
-static const char *input_name(int verb, int i)
-{
-	static const char *const eval[] = {"wo[0]", "wo[1]", "wo[2]", "wi[0]", "wi[1]", "wi[2]"};
-	static const char *const sample[] = {"wo[0]", "wo[1]", "wo[2]", "u[0]", "u[1]", "u[2]"};
-	return lobe_verb_is_sample(verb) ? sample[i] : eval[i];
-}
-
-static const char *output_name(int verb, int o)
-{
-	static const char *const eval[] = {"f[0]", "f[1]", "f[2]", "pdf"};
-	static const char *const sample[] = {"sample_wi[0]", "sample_wi[1]", "sample_wi[2]", "weight[0]",
-					     "weight[1]",    "weight[2]",    "sample_pdf",   "event"};
-	return lobe_verb_is_sample(verb) ? sample[o] : eval[o];
-}
-
 /* --- batches of host arrays --- */
 
 /* Elements [first, first + count) of a job's array. */
@@ -177,7 +161,7 @@ static void start_batch(lobe_cl_shading *b, const lobe_scene *scene, const lobe_
 	b->scene = scene;
 	b->verb = job->verb;
 	for (i = 0; i < LOBE_OUT_COUNT; i++)
-		b->wanted[i] = lobe_cl_verb_has_output(job->verb, i) && job->out[i];
+		b->wanted[i] = lobe_verb_writes(job->verb, i) && job->out[i];
 }
 
 lobe_status lobe_cl_run(lobe_scene *scene, const lobe_job *job)
@@ -226,7 +210,7 @@ static lobe_status take_buffers(lobe_cl_shading *b, const lobe_job *job)
 	int i;
 	for (i = 0; i < LOBE_IN_COUNT && status == LOBE_OK; i++) {
 		b->in[i] = (cl_mem)(void *)at(job->in[i], 0);
-		status = check_buffer(b->device, b->in[i], input_name(b->verb, i), job->count);
+		status = check_buffer(b->device, b->in[i], lobe_in_names[lobe_verb_is_sample(b->verb)][i], job->count);
 	}
 	if (job->material && status == LOBE_OK) {
 		b->material = (cl_mem)(void *)at(job->material, 0);
@@ -235,7 +219,8 @@ static lobe_status take_buffers(lobe_cl_shading *b, const lobe_job *job)
 	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
 		if (b->wanted[i]) {
 			b->out[i] = (cl_mem)job->out[i];
-			status = check_buffer(b->device, b->out[i], output_name(b->verb, i), job->count);
+			status = check_buffer(b->device, b->out[i], lobe_out_names[lobe_verb_is_sample(b->verb)][i],
+					      job->count);
 		}
 	}
 	return status;

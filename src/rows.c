@@ -33,12 +33,12 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 		memcpy((char *)&p + 4 * (k), &w, 4);                                                                   \
 	}
 #define FETCH_4(k, which) FETCH_1(k, which) FETCH_1(k + 1, which) FETCH_1(k + 2, which) FETCH_1(k + 3, which)
+/* clang-format off */
 #define FETCH(which)                                                                                                   \
 	PARAMS p;                                                                                                      \
-	FETCH_4(0, which)                                                                                              \
-	FETCH_4(4, which)                                                                                              \
-	FETCH_4(8, which) FETCH_4(12, which) FETCH_4(16, which) FETCH_4(20, which) FETCH_4(24, which)                  \
-		FETCH_4(28, which)
+	FETCH_4(0, which) FETCH_4(4, which) FETCH_4(8, which) FETCH_4(12, which)                                       \
+	FETCH_4(16, which) FETCH_4(20, which) FETCH_4(24, which) FETCH_4(28, which)
+/* clang-format on */
 
 /* clang's cost model would leave a cheap lobe's gathers scalar on SSE2. */
 #ifdef __clang__

@@ -156,6 +156,6 @@ int main(int argc, char **argv)
 		else
 			failed++;
 	}
-	printf("%u passed, %u failed\n", passed, failed);
+	printf("%u Tests %u Failures 0 Ignored\n", passed + failed, failed);
 	return failed != 0;
 }

@@ -28,6 +28,7 @@ for test in "$@"; do
 		set -- $summary
 		p=$(($1 - $3 - $5)) f=$3 s=$5
 		[ "$f" -gt 0 ] || [ "$status" = 0 ] || f=1
+		[ "$1" -gt 0 ] || f=1
 	else
 		p=0 f=1 s=0
 	fi

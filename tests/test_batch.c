@@ -1,5 +1,6 @@
 /* test_batch.c - devices, scenes and batches: what they do, and what they refuse and how they say so. */
 #define _POSIX_C_SOURCE 200809L
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -388,6 +389,41 @@ static void test_elements_are_independent(void)
 		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(out[k][500]));
 }
 
+/* One device used from four threads at once: calls take turns, and each thread has its own error message. */
+enum { THREADS = 4 };
+static float thread_pdf[THREADS][N];
+
+static void *use_device(void *argument)
+{
+	const size_t me = (size_t)((float(*)[N])argument - thread_pdf);
+	lobe_batch b = good_batch();
+	b.f[0] = b.f[1] = b.f[2] = NULL;
+	b.pdf = thread_pdf[me];
+	for (int round = 0; round < 50; round++) {
+		if (lobe_scene_eval(scene, &b) != LOBE_OK || lobe_error_message()[0])
+			return argument;
+		lobe_device *none;
+		if (round == 49 && lobe_device_open(&none, "nothing") == LOBE_OK)
+			return argument;
+	}
+	return NULL;
+}
+
+static void test_threads(void)
+{
+	pthread_t threads[THREADS];
+	void *failed;
+	lobe_batch b = good_batch();
+	TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
+	for (int i = 0; i < THREADS; i++)
+		TEST_ASSERT_EQUAL(0, pthread_create(&threads[i], NULL, use_device, thread_pdf[i]));
+	for (int i = 0; i < THREADS; i++) {
+		TEST_ASSERT_EQUAL(0, pthread_join(threads[i], &failed));
+		TEST_ASSERT_NULL(failed);
+		TEST_ASSERT_EQUAL_MEMORY(out[3], thread_pdf[i], sizeof out[3]);
+	}
+}
+
 /* --- OpenCL calls on a native device ----------------------------------------------------------------------------- */
 
 static void test_native_takes_no_buffers(void)
@@ -428,6 +464,7 @@ int main(void)
 	RUN_TEST(test_results_and_subsets);
 	RUN_TEST(test_no_lobe);
 	RUN_TEST(test_elements_are_independent);
+	RUN_TEST(test_threads);
 	RUN_TEST(test_native_takes_no_buffers);
 	RUN_TEST(test_source_and_options);
 	return UNITY_END();

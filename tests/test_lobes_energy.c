@@ -123,7 +123,7 @@ static void test_no_lobe_returns_more_than_it_receives(void)
 	printf("  %u albedos, reflected and transmitted together: at most %.6f (%s)\n", n, brightest, which);
 }
 
-/* The exact single-scattering albedo of GGX at alpha = 1 with F = 1: formulas.md 4h. */
+/* The exact single-scattering albedo of GGX at alpha = 1 with F = 1: the integral of 1/(2 pi (mu_o + mu_i)) mu_i. */
 static void test_furnace_at_alpha_1_is_exact(void)
 {
 	const lobe_ggx one = lobe_ggx_make(1.0f, 1.0f);
@@ -149,7 +149,7 @@ static void test_furnace_at_alpha_1_is_exact(void)
 	TEST_ASSERT_TRUE(worst_lobe < 1e-5 + (1.0 - dimmest));
 }
 
-/* E(mu, alpha) with height-correlated masking: formulas.md 4i, four digits. */
+/* E(mu, alpha) with height-correlated masking, by quadrature made apart from this library, to four digits. */
 static void test_furnace_matches_the_reference_table(void)
 {
 	static const double alphas[] = {0.1, 0.25, 0.5, 0.75, 1.0};
@@ -259,7 +259,7 @@ static void test_weak_white_furnace(void)
 	       worst, worst_sphere, wrong, wrong_sphere);
 	TEST_ASSERT_TRUE(worst < 1e-5);
 	TEST_ASSERT_TRUE(worst_sphere < 1e-5);
-	/* The masking that does not belong to D is caught, with the value of formulas.md section 11. */
+	/* The masking that does not belong to D is caught, with its known value. */
 	TEST_ASSERT_DOUBLE_WITHIN(5e-4, 0.909, wrong);
 	TEST_ASSERT_DOUBLE_WITHIN(5e-4, 0.909, wrong_sphere);
 }

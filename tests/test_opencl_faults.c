@@ -20,7 +20,8 @@ static lobe_cl_functions *table; /* what the library calls */
 static const char *failing = ""; /* the call that fails ... */
 static long countdown;           /* ... when this gets to 0 */
 static cl_int failure;           /* ... with this code */
-static long live;                /* objects created and not released */
+static int discrete; /* the device pretends to be a GPU: memory of its own, and room for 777 elements in a buffer */
+static long live;    /* objects created and not released */
 
 /* 1 when this call is the one to fail. */
 static int fails(const char *name) { return strcmp(name, failing) == 0 && countdown-- == 0; }
@@ -78,7 +79,24 @@ RELEASES(clReleaseMemObject, cl_mem)
 DOES(clGetPlatformIDs, (cl_uint n, cl_platform_id *p, cl_uint *m), (n, p, m))
 DOES(clGetPlatformInfo, (cl_platform_id p, cl_uint w, size_t n, void *v, size_t *m), (p, w, n, v, m))
 DOES(clGetDeviceIDs, (cl_platform_id p, cl_bitfield t, cl_uint n, cl_device_id *d, cl_uint *m), (p, t, n, d, m))
-DOES(clGetDeviceInfo, (cl_device_id d, cl_uint w, size_t n, void *v, size_t *m), (d, w, n, v, m))
+static cl_int wrap_clGetDeviceInfo(cl_device_id d, cl_uint what, size_t n, void *value, size_t *size)
+{
+	const cl_bool no = CL_FALSE;
+	const cl_bitfield gpu = (cl_bitfield)1 << 2;
+	const cl_ulong room = 4 * 777;
+	if (fails("clGetDeviceInfo"))
+		return failure;
+	const cl_int error = real.clGetDeviceInfo(d, what, n, value, size);
+	if (discrete && error == CL_SUCCESS && value) {
+		if (what == CL_DEVICE_HOST_UNIFIED_MEMORY)
+			memcpy(value, &no, sizeof no);
+		else if (what == CL_DEVICE_TYPE)
+			memcpy(value, &gpu, sizeof gpu);
+		else if (what == CL_DEVICE_MAX_MEM_ALLOC_SIZE)
+			memcpy(value, &room, sizeof room);
+	}
+	return error;
+}
 DOES(clBuildProgram,
      (cl_program p, cl_uint n, const cl_device_id *d, const char *o, void (*notify)(cl_program, void *), void *u),
      (p, n, d, o, notify, u))
@@ -99,6 +117,7 @@ DOES(clEnqueueNDRangeKernel,
 DOES(clEnqueueUnmapMemObject, (cl_command_queue q, cl_mem b, void *p, cl_uint c, const cl_event *w, cl_event *e),
      (q, b, p, c, w, e))
 DOES(clFlush, (cl_command_queue q), (q))
+DOES(clGetMemObjectInfo, (cl_mem b, cl_uint w, size_t n, void *v, size_t *m), (b, w, n, v, m))
 DOES(clFinish, (cl_command_queue q), (q))
 
 /* Mapping makes no object: it is undone by unmapping. */
@@ -138,7 +157,10 @@ static const struct {
 	{"clEnqueueReadBuffer", 0},
 	{"clFlush", 1},
 	{"clFinish", 1},
+	{"clGetMemObjectInfo", 0},
 };
+
+static int reached_times[sizeof calls / sizeof *calls];
 
 /* --- one life of a device: open, scene, batch ------------------------------------------------------------------------- */
 
@@ -147,7 +169,33 @@ static uint32_t material[N];
 static lobe_bsdf materials[3];
 static float out[12][N], expected[12][N];
 
-static lobe_status live_once(void)
+/* A batch on buffers of the device, and what is asked of them; the buffers are made behind the wrappers' back. */
+static lobe_status eval_on_buffers(lobe_device *device, lobe_scene *scene)
+{
+	cl_context context;
+	cl_mem buffer[7];
+	lobe_cl_batch b;
+	lobe_status status = lobe_device_cl(device, &context, NULL, NULL);
+	if (status != LOBE_OK)
+		return status;
+	for (int k = 0; k < 7; k++)
+		buffer[k] = real.clCreateBuffer(context, CL_MEM_READ_WRITE | (k < 6 ? CL_MEM_COPY_HOST_PTR : 0), N * 4,
+						k < 6 ? in.array[k] : NULL, NULL);
+	memset(&b, 0, sizeof b);
+	b.count = N;
+	for (int k = 0; k < 3; k++) {
+		b.wo[k] = buffer[k];
+		b.wi[k] = buffer[3 + k];
+	}
+	b.pdf = buffer[6];
+	status = lobe_scene_eval_cl(scene, &b);
+	for (int k = 0; k < 7; k++)
+		real.clReleaseMemObject(buffer[k]);
+	return status;
+}
+
+/* name: the device to live on. */
+static lobe_status live_on(const char *name)
 {
 	lobe_device *device;
 	lobe_scene *scene;
@@ -166,7 +214,7 @@ static lobe_status live_once(void)
 	b.pdf = out[3];
 	b.sample_pdf = out[10];
 	b.event = (uint32_t *)(void *)out[11];
-	lobe_status status = lobe_device_open(&device, "opencl");
+	lobe_status status = lobe_device_open(&device, name);
 	if (status != LOBE_OK)
 		return status;
 	status = lobe_scene_create(&scene, device, materials, 3);
@@ -174,11 +222,15 @@ static lobe_status live_once(void)
 		status = lobe_scene_eval(scene, &b);
 		if (status == LOBE_OK)
 			status = lobe_scene_sample(scene, &b);
+		if (status == LOBE_OK && strcmp(name, "opencl") == 0)
+			status = eval_on_buffers(device, scene);
 		lobe_scene_destroy(scene);
 	}
 	lobe_device_close(device);
 	return status;
 }
+
+static lobe_status live_once(void) { return live_on("opencl"); }
 
 void setUp(void) {}
 void tearDown(void) {}
@@ -219,6 +271,7 @@ static void install(void)
 	WRAP(clEnqueueUnmapMemObject);
 	WRAP(clEnqueueMapBuffer);
 	WRAP(clFlush);
+	WRAP(clGetMemObjectInfo);
 	WRAP(clFinish);
 	in = inputs_alloc(N);
 	inputs_random(in, 8000000);
@@ -228,8 +281,10 @@ static void install(void)
 	materials[2].kind = LOBE_KIND_NONE;
 	for (uint32_t i = 0; i < N; i++)
 		material[i] = i % 3;
-	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_once(), lobe_error_message());
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_on("native:1"), lobe_error_message());
 	memcpy(expected, out, sizeof expected);
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_once(), lobe_error_message());
+	TEST_ASSERT_EQUAL_MEMORY(expected, out, sizeof expected);
 }
 
 static void test_nothing_leaks(void) { TEST_ASSERT_EQUAL_MESSAGE(0, live, "objects created and not released"); }
@@ -246,6 +301,7 @@ static void fail_each(cl_int code, int check_memory)
 			const lobe_status status = live_once();
 			const int reached = countdown < 0;
 			made += reached;
+			reached_times[c] += reached;
 			if (!reached) {
 				TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, status, lobe_error_message());
 				break;
@@ -271,6 +327,25 @@ static void fail_each(cl_int code, int check_memory)
 		TEST_ASSERT_EQUAL_MEMORY(expected, out, sizeof expected);
 		TEST_ASSERT_EQUAL(0, live);
 	}
+}
+
+/* The path of a device with memory of its own: copies in and out, in rounds, one work-item for each element. */
+static void test_discrete_memory(void)
+{
+	discrete = 1;
+	memset(out, 0xee, sizeof out);
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_once(), lobe_error_message());
+	TEST_ASSERT_EQUAL_MEMORY(expected, out, sizeof expected);
+	TEST_ASSERT_EQUAL(0, live);
+	fail_each(CL_INVALID_VALUE, 0);
+	discrete = 0;
+}
+
+/* Each call is reached on one of the two paths at least. */
+static void test_every_call_was_reached(void)
+{
+	for (size_t c = 0; c < sizeof calls / sizeof *calls; c++)
+		TEST_ASSERT_GREATER_THAN_MESSAGE(0, reached_times[c], calls[c].name);
 }
 
 static void test_each_call_fails(void) { fail_each(CL_INVALID_VALUE, 0); }
@@ -299,11 +374,13 @@ int main(void)
 {
 	UNITY_BEGIN();
 	RUN_TEST(install);
-	if (table) {
+	if (table) { /* else there is no OpenCL device, as install said */
 		RUN_TEST(test_nothing_leaks);
 		RUN_TEST(test_each_call_fails);
 		RUN_TEST(test_out_of_memory);
 		RUN_TEST(test_build_log);
+		RUN_TEST(test_discrete_memory);
+		RUN_TEST(test_every_call_was_reached);
 	}
 	return UNITY_END();
 }

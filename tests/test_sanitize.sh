@@ -15,16 +15,25 @@ if ! $CC -fsanitize=address,undefined $out/probe.c -o $out/probe 2>/dev/null || 
 	exit
 fi
 
-sanitized() { make -s -j2 B=$out CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all" "$out/tests/$1"; }
+sanitized() {
+	make -s -j2 B=$out CFLAGS="-O1 -g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all" "$out/tests/$1"
+}
 clean() {
 	ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$out/suppressions:print_suppressions=0 \
 		UBSAN_OPTIONS=print_stacktrace=1 "$out/tests/$1"
 }
 
-for program in test_batch test_vectors test_opencl test_opencl_none test_opencl_faults test_core test_ggx; do
+for program in test_batch test_vectors test_opencl test_opencl_none test_opencl_faults test_core test_real test_warp test_fresnel \
+	test_ggx test_lobes_extremes; do
 	check "$program builds" sanitized $program
 	check "$program runs clean" clean $program
 done
+
+# Data races in the thread pool and the devices.
+raceless() {
+	make -s -j2 B=$out/threads CFLAGS="-O1 -g -fsanitize=thread" "$out/threads/tests/test_batch" && "$out/threads/tests/test_batch"
+}
+check "test_batch has no data race" raceless
 
 # A planted overflow is reported.
 printf '#include <stdlib.h>\nint main(void) { volatile char *p = malloc(4); return p[4]; }\n' >$out/planted.c

@@ -8,18 +8,32 @@ mkdir -p $out
 
 lobes=$(sed -n 's/^LOBE_X.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
 lines=$(grep -n '^ROW_' src/rows.c | cut -d: -f1)
-flags="-std=c99 -O3 $exact -fPIC -Iinclude -Isrc"
 
-# remarks COMPILER ISA-FLAGS LOBE SOURCE: the line numbers of SOURCE with a vectorised loop.
+# widest COMPILER ISA-FLAGS: the vector that its remarks must name; gcc counts bytes, clang elements.
+widest() {
+	case $2 in
+	*avx512*) bytes=64 ;;
+	*avx2*) bytes=32 ;;
+	*) bytes=16 ;;
+	esac
+	case $1 in
+	*clang*) echo "width: $((bytes / 4))," ;;
+	*) echo "using $bytes byte vectors" ;;
+	esac
+}
+
+# remarks COMPILER ISA-FLAGS LOBE SOURCE: the line numbers of SOURCE with a loop vectorised to that width, compiled with
+# the library's own options.
 remarks() {
 	case $1 in
 	*clang*) report="-Rpass=loop-vectorize" ;;
 	*) report="-fopt-info-vec-optimized" ;;
 	esac
+	flags=$(MAKEFLAGS= make -s --no-print-directory print-ROW_CFLAGS CC="$1")
 	# shellcheck disable=SC2086
 	"$1" $flags $2 $report -DLOBE_ROW="$3" -DLOBE_ROW_ISA=test -c "$4" -o $out/rows.o 2>&1 |
-		awk -F: -v file="$(basename "$4")" \
-			'$1 ~ file "$" && /vectorized loop|loop vectorized/ && !/not vectorized/ { print $2 }' | sort -un
+		awk -F: -v file="$(basename "$4")" -v width="$(widest "$1" "$2")" \
+			'$1 ~ file "$" && /vectorized loop|loop vectorized/ && index($0, width) { print $2 }' | sort -un
 }
 
 # missing COMPILER ISA-FLAGS LOBE SOURCE: the ROW_ lines without one.

@@ -40,45 +40,72 @@ struct entry {
 
 /* --- devices ---------------------------------------------------------------------------------------------------- */
 
-/* 0, -1 for a device that is not there, EXIT_FAILURE for one that does not work. */
-static int open_device(struct entry *e, const char *name, size_t length, const struct scene *scene)
+/* 0, -1 for a device that does not open, EXIT_FAILURE for one on which the materials cannot be had; then *why says why.
+ * e is to be closed in any case. */
+static int open_device(struct entry *e, const char *name, size_t length, const struct scene *scene, const char **why)
 {
 	const double before = seconds_now();
 	memset(e, 0, sizeof *e);
 	snprintf(e->name, sizeof e->name, "%.*s", (int)length, name);
+	*why = "no device has such a long name";
 	if (length >= sizeof e->name)
-		return complain(e->name, "no device has such a long name");
-	if (lobe_device_open(&e->device, e->name) != LOBE_OK)
-		return complain(e->name, lobe_error_message());
-	if (lobe_scene_create(&e->materials, e->device, scene->material, SCENE_MATERIALS) != LOBE_OK)
-		return complain(e->name, lobe_error_message()), EXIT_FAILURE;
+		return -1;
+	lobe_status status = lobe_device_open(&e->device, e->name);
+	if (status == LOBE_OK)
+		status = lobe_scene_create(&e->materials, e->device, scene->material, SCENE_MATERIALS);
+	if (status != LOBE_OK) {
+		*why = lobe_error_message();
+		return e->device ? EXIT_FAILURE : -1;
+	}
 	snprintf(e->description, sizeof e->description, "%s", lobe_device_name(e->device));
 	e->build_seconds = seconds_now() - before;
 	return 0;
 }
 
-/* The devices of a comma-separated list, or native and all of OpenCL. Returns as open_device; *opened of them are to be
- * closed in any case. */
-static int open_devices(struct entry *entries, size_t *opened, const char *list, const struct scene *scene)
+static void close_device(struct entry *e)
 {
-	const int all = !strcmp(list, "all");
+	lobe_scene_destroy(e->materials);
+	lobe_device_close(e->device);
+}
+
+/* native and all of OpenCL. Nobody has asked for an OpenCL device that lobe refuses, so it is left out. Returns as
+ * open_device; *opened of the entries are to be closed in any case. */
+static int open_all(struct entry *entries, size_t *opened, const struct scene *scene)
+{
+	const char *why = "";
 	size_t opencl = 0;
-	*opened = 0;
-	if (all && lobe_device_count("opencl", &opencl) != LOBE_OK)
-		opencl = 0;
-	for (size_t i = 0; i < MAX_DEVICES; i++) {
-		char name[32] = "native";
+	*opened = 1;
+	const int status = open_device(&entries[0], "native", strlen("native"), scene, &why);
+	if (status != 0)
+		return complain("native", why), status;
+	if (lobe_device_count("opencl", &opencl) != LOBE_OK)
+		printf("skipped: opencl: %s\n", lobe_error_message());
+	for (size_t i = 0; i < opencl && *opened < MAX_DEVICES; i++) {
+		struct entry *e = &entries[*opened];
+		char name[32];
+		snprintf(name, sizeof name, "opencl:%zu", i);
+		if (open_device(e, name, strlen(name), scene, &why) == 0) {
+			++*opened;
+			continue;
+		}
+		printf("skipped: %s: %s\n", name, why);
+		close_device(e);
+	}
+	return 0;
+}
+
+/* The devices of a comma-separated list, each of which must open. Otherwise as open_all. */
+static int open_listed(struct entry *entries, size_t *opened, const char *list, const struct scene *scene)
+{
+	for (*opened = 0; *opened < MAX_DEVICES; list++) {
+		struct entry *e = &entries[(*opened)++];
 		const size_t length = strcspn(list, ",");
-		if (all && i > opencl)
-			return 0;
-		if (all && i > 0)
-			snprintf(name, sizeof name, "opencl:%zu", i - 1);
-		++*opened; /* also when it fails halfway */
-		const int status = open_device(&entries[i], all ? name : list, all ? strlen(name) : length, scene);
+		const char *why = "";
+		const int status = open_device(e, list, length, scene, &why);
 		if (status != 0)
-			return status;
-		list += all ? 0 : length;
-		if (!all && !*list++)
+			return complain(e->name, why), status;
+		list += length;
+		if (!*list)
 			return 0;
 	}
 	return complain("--device", "too many");
@@ -352,7 +379,8 @@ int main(int argc, char **argv)
 	}
 	if (make_light(&light, &o) != 0 || make_directories(o.out) != 0)
 		goto done;
-	const int opened = open_devices(entries, &count, o.devices, &scene);
+	const int opened = strcmp(o.devices, "all") ? open_listed(entries, &count, o.devices, &scene)
+						    : open_all(entries, &count, &scene);
 	if (opened != 0) {
 		result = opened < 0 ? EXIT_USAGE : EXIT_FAILURE;
 		goto done;
@@ -375,10 +403,8 @@ int main(int argc, char **argv)
 			result = EXIT_FAILURE;
 		}
 done:
-	for (size_t i = 0; i < count; i++) {
-		lobe_scene_destroy(entries[i].materials);
-		lobe_device_close(entries[i].device);
-	}
+	for (size_t i = 0; i < count; i++)
+		close_device(&entries[i]);
 	light_free(&light);
 	pool_destroy(pool);
 	return result;

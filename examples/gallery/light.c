@@ -48,8 +48,8 @@ static void finish_cdf(float *cdf, uint16_t *guide, const double *sum, size_t n)
 		cdf[i] = sum[n] > 0.0 ? (float)(sum[i] / sum[n]) : (float)i / (float)n;
 	cdf[n] = 1.0f;
 	for (size_t k = 0, i = 0; k < n; k++) {
-		/* The interval of the smallest u for which find() looks here, or one before by rounding of its product.
-		 */
+		/* The interval of the smallest u for which find() looks here, or one before, since its product is
+		 * rounded. */
 		while (cdf[i + 1] <= ((float)k - 0.5f) / (float)n)
 			i++;
 		guide[k] = (uint16_t)i;

@@ -12,8 +12,8 @@ struct random_key {
 	uint32_t seed, pixel, sample, round;
 };
 
-/* u[0..2], each in [0,1). Over the samples of a pixel (u[0], u[1]) are well spread over the square, u[2] over the line.
- */
+/* u[0..2], each in [0,1). Over the samples of a pixel (u[0], u[1]) are well spread over the square, and u[2] over the
+ * line. */
 void random_spread(struct random_key key, uint32_t use, float u[3]);
 
 /* In [0,1), independent of all others. */

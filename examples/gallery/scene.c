@@ -107,8 +107,8 @@ static float ball_distance(const struct ray *ray, int ball)
 /* [near, far] of the ray between the planes at low and high of one axis. */
 static void clip(float origin, float dir, float low, float high, float *near, float *far)
 {
-	const float inverse =
-		1.0f / dir; /* infinite where the ray is parallel: then inside gives all, outside nothing */
+	/* Infinite where the ray is parallel: then inside gives all, outside nothing. */
+	const float inverse = 1.0f / dir;
 	const float a = (low - origin) * inverse, b = (high - origin) * inverse;
 	*near = lobe_max(*near, lobe_min(a, b));
 	*far = lobe_min(*far, lobe_max(a, b));

@@ -6,7 +6,8 @@
  *	prepare  for each path left: frame, direction to the viewer, random numbers; a direction drawn from the probe
  *	sample   one batch through lobe: where each path goes on
  *	eval     one batch through lobe: what reaches the viewer of the light drawn from the probe, where it is not
- *hidden finish   both results into the paths; Russian roulette
+ *	         hidden
+ *	finish   both results into the paths; Russian roulette
  *
  * Light from the probe thus arrives twice, by its own sample and by the lobe's, and each is weighted by the power
  * heuristic of Veach 1997 (section 9.2.4). Every path is on its own and its random numbers are a function of pixel,

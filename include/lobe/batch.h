@@ -19,10 +19,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "backend/api.h"
 #include "bsdf.h"
 
 #if LOBE_DOUBLE
 #error "batches are single precision: include shading.h alone in LOBE_DOUBLE builds"
+#endif
+#if !LOBE_HAS_ALL
+#error "lobe_bsdf of the linked library has every lobe: LOBE_HAS_* switches are for shading.h without batch.h"
 #endif
 
 #ifdef __cplusplus
@@ -34,44 +38,44 @@ typedef enum {
 	LOBE_ERROR_ARGUMENT,  /* a null or misaligned pointer, overlapping arrays, an index out of range */
 	LOBE_ERROR_PARAMETER, /* a material's field is not finite or outside its domain */
 	LOBE_ERROR_DEVICE,    /* no such backend or device, or no OpenCL runtime */
-	LOBE_ERROR_BUILD,     /* the OpenCL compiler refused the program; the message holds its log */
+	LOBE_ERROR_BUILD,     /* the OpenCL compiler refused the program; the message holds the head of its log */
 	LOBE_ERROR_MEMORY,    /* the host or the device is out of memory */
 	LOBE_ERROR_OPENCL     /* any other OpenCL failure; the message names the call and its code */
 } lobe_status;
 
 /* The name of a status, e.g. "LOBE_OK". Never null. */
-const char *lobe_status_string(lobe_status status);
+LOBE_API const char *lobe_status_string(lobe_status status);
 
 /* Why the last call of this thread that failed did so. Never null; "" if none has. Valid until the thread's next call. */
-const char *lobe_error_message(void);
+LOBE_API const char *lobe_error_message(void);
 
 typedef struct lobe_device lobe_device;
 typedef struct lobe_scene lobe_scene;
 
 /* Devices that backend "native" (always 1) or "opencl" (all devices of all platforms; 0 without a runtime) offers. */
-lobe_status lobe_device_count(const char *backend, size_t *count);
+LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
 
 /* Opens a device by name:
- *	"native"     a thread for each processor online
+ *	"native"     a thread for each processor that this process may run on
  *	"native:N"   N threads, 1 to 1024
  *	"opencl"     the first OpenCL device (the same as "opencl:0")
  *	"opencl:N"   OpenCL device N, counted over all platforms
  * A native device runs the widest instruction set of "baseline", "avx2" and "avx512" that was compiled in and that the
  * processor has; the environment variable LOBE_ISA names a narrower one. Results do not depend on it. */
-lobe_status lobe_device_open(lobe_device **out, const char *name);
+LOBE_API lobe_status lobe_device_open(lobe_device **out, const char *name);
 
 /* What the device is, for people: "native, avx2, 2 threads", "opencl:0, PLATFORM, DEVICE". Valid until it is closed. */
-const char *lobe_device_name(const lobe_device *device);
+LOBE_API const char *lobe_device_name(const lobe_device *device);
 
 /* Releases the device. Its scenes must have been destroyed before. Null does nothing. */
-void lobe_device_close(lobe_device *device);
+LOBE_API void lobe_device_close(lobe_device *device);
 
 /* Takes a copy of materials[0..count), each checked field by field, and prepares the device for the kinds of lobe in it
  * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds. */
-lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count);
+LOBE_API lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count);
 
 /* Null does nothing. */
-void lobe_scene_destroy(lobe_scene *scene);
+LOBE_API void lobe_scene_destroy(lobe_scene *scene);
 
 /* A batch as structure of arrays, each of count elements, aligned as its element type is. An output that is NULL is not
  * wanted; the three components of a vector are wanted together or not at all. Inputs may be the same arrays as each
@@ -88,10 +92,10 @@ typedef struct {
 } lobe_batch;
 
 /* f |cos theta_i| and the pdf, whichever is asked for. At least one of f and pdf must be. */
-lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch);
+LOBE_API lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch);
 
 /* sample_wi, weight, sample_pdf and event, whichever are asked for. At least one must be. */
-lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch);
+LOBE_API lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch);
 
 /* --- OpenCL ---------------------------------------------------------------------------------------------------- */
 
@@ -102,23 +106,24 @@ struct _cl_command_queue;
 struct _cl_mem;
 
 /* The shared source, shading.h and all that it includes, as one string. Put it before your own kernels. */
-const char *lobe_opencl_source(void);
+LOBE_API const char *lobe_opencl_source(void);
 
 /* Build options for a program that holds lobe_opencl_source() and serves this scene: exact arithmetic, and the scene's
  * kinds of lobe only. scene NULL: every lobe. Valid until the scene is destroyed. */
-const char *lobe_opencl_options(const lobe_scene *scene);
+LOBE_API const char *lobe_opencl_options(const lobe_scene *scene);
 
 /* A device on the caller's own context, device and in-order queue, each retained until the device is closed. */
-lobe_status lobe_device_open_cl(lobe_device **out, struct _cl_context *context, struct _cl_device_id *device,
-				struct _cl_command_queue *queue);
+LOBE_API lobe_status lobe_device_open_cl(lobe_device **out, struct _cl_context *context, struct _cl_device_id *device,
+					 struct _cl_command_queue *queue);
 
 /* The context, device and queue of an OpenCL device, so that buffers can be made for it; each still owned by it.
  * Any of the three may be NULL. LOBE_ERROR_ARGUMENT for a native device. */
-lobe_status lobe_device_cl(const lobe_device *device, struct _cl_context **context, struct _cl_device_id **id,
-			   struct _cl_command_queue **queue);
+LOBE_API lobe_status lobe_device_cl(const lobe_device *device, struct _cl_context **context, struct _cl_device_id **id,
+				    struct _cl_command_queue **queue);
 
 /* lobe_batch with buffers that stay on the device: each holds at least count elements of 4 bytes from offset 0. The same
- * rules, except that two handles to overlapping memory (sub-buffers) cannot be noticed. The call enqueues on the
+ * rules, with two exceptions: overlapping sub-buffers are not noticed, and where no more than one kind of lobe is in the
+ * scene a material index out of range is not an error but shades to 0. The call enqueues on the
  * device's queue and returns; clFinish or a blocking read waits for the results. With a material buffer and more than
  * one kind of lobe in the scene, the indices are read back first, to sort by kind. */
 typedef struct {
@@ -129,8 +134,8 @@ typedef struct {
 	struct _cl_mem *sample_wi[3], *weight[3], *sample_pdf, *event;
 } lobe_cl_batch;
 
-lobe_status lobe_scene_eval_cl(lobe_scene *scene, const lobe_cl_batch *batch);
-lobe_status lobe_scene_sample_cl(lobe_scene *scene, const lobe_cl_batch *batch);
+LOBE_API lobe_status lobe_scene_eval_cl(lobe_scene *scene, const lobe_cl_batch *batch);
+LOBE_API lobe_status lobe_scene_sample_cl(lobe_scene *scene, const lobe_cl_batch *batch);
 
 #ifdef __cplusplus
 }

@@ -26,4 +26,7 @@
 #define LOBE_HAS_GGX_DIELECTRIC LOBE_HAS_DEFAULT
 #endif
 
+/* The linked library has every lobe; its lobe_bsdf is a union over them all. */
+#define LOBE_HAS_ALL (LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC)
+
 #endif
