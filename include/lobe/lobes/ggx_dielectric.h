@@ -71,10 +71,12 @@ LOBE_FN lobe_ggx_dielectric_view lobe_ggx_dielectric_view_make(lobe_ggx_dielectr
 /* The facet that takes o to i. prob: F or 1 - F, by the event. density: its density dm/di D(m) o.m [1/sr], times
  * sigma(o). Both events are one formula in the unnormalised half vector H = o + e_r i, e_r = 1 for reflection:
  *	D(m) o.m |dm/di| = norm e_r^2 |o.H| |i.H|/Q(H)^2
- * in which every power of |H| has cancelled. */
+ * in which every power of |H| has cancelled. facing > 0 where there is such a facet: both directions see its front, or
+ * for a refraction one its front and one its back. (A number, as compilers make more of a minimum than of a chain of
+ * truth values.) */
 typedef struct {
-	lobe_real prob, density;
-	int reflects, valid;
+	lobe_real prob, density, facing;
+	int reflects;
 } lobe_ggx_dielectric_facet;
 
 LOBE_FN lobe_ggx_dielectric_facet lobe_ggx_dielectric_facet_make(lobe_ggx_dielectric p, lobe_ggx_dielectric_view v,
@@ -90,10 +92,12 @@ LOBE_FN lobe_ggx_dielectric_facet lobe_ggx_dielectric_facet_make(lobe_ggx_dielec
 	const lobe_real ih = reflects ? LOBE_R(0.5) * h2 : up * lobe_dot(i, h);
 	const lobe_real x = e_r * lobe_ggx_inv_q(p.ggx, h);
 	const lobe_fresnel fr = lobe_fresnel_dielectric(lobe_min(oh / lobe_sqrt(h2), one), v.e);
-	const int refracts = (i.z < zero) & (oh > zero) & (ih < zero) & (p.delta == 0u);
+	const lobe_real refracts = lobe_min(lobe_min(oh, -ih), -i.z);
+	const lobe_real refracts_to_density = p.delta == 0u ? refracts : zero;
+	const lobe_real sees = reflects ? i.z : refracts_to_density;
 	lobe_ggx_dielectric_facet f;
 	f.reflects = reflects;
-	f.valid = (v.o.z > zero) & (reflects | refracts);
+	f.facing = lobe_min(v.o.z, sees);
 	f.prob = reflects ? fr.reflectance : fr.transmittance;
 	f.density = p.ggx.norm * (oh * x) * (lobe_abs(ih) * x);
 	return f;
@@ -116,6 +120,13 @@ LOBE_FN lobe_real lobe_ggx_dielectric_g2_over_cos(lobe_ggx_dielectric p, lobe_gg
 	return num / den;
 }
 
+/* x, which is >= 0 where m is a facet, or 0 where it is none or x is no finite number. */
+LOBE_FN lobe_real lobe_ggx_dielectric_keep(lobe_ggx_dielectric_facet m, lobe_real x)
+{
+	const lobe_real there = m.facing > LOBE_R(0.0) ? x : LOBE_R(0.0);
+	return lobe_abs(there) <= LOBE_REAL_MAX ? there : LOBE_R(0.0);
+}
+
 /* f |cos theta_i| [1/sr] */
 LOBE_FN lobe_rgb lobe_ggx_dielectric_eval(lobe_ggx_dielectric p, lobe_vec3 wo, lobe_vec3 wi)
 {
@@ -124,8 +135,8 @@ LOBE_FN lobe_rgb lobe_ggx_dielectric_eval(lobe_ggx_dielectric p, lobe_vec3 wo, l
 	const lobe_ggx_dielectric_facet m = lobe_ggx_dielectric_facet_make(p, v, i);
 	const lobe_real g = lobe_ggx_dielectric_g2_over_cos(p, v, i, m.reflects);
 	const lobe_real scale = m.reflects ? LOBE_R(1.0) : v.scale;
-	const lobe_real f = lobe_finite_or_zero(m.prob * scale * m.density * g);
-	const lobe_real kept = m.valid ? f : LOBE_R(0.0);
+	const lobe_real f = m.prob * scale * m.density * g;
+	const lobe_real kept = lobe_ggx_dielectric_keep(m, f);
 	return lobe_rgb_make(kept, kept, kept);
 }
 
@@ -135,8 +146,8 @@ LOBE_FN lobe_real lobe_ggx_dielectric_pdf(lobe_ggx_dielectric p, lobe_vec3 wo, l
 	const lobe_ggx_dielectric_view v = lobe_ggx_dielectric_view_make(p, wo);
 	const lobe_ggx_dielectric_facet m = lobe_ggx_dielectric_facet_make(p, v, lobe_ggx_dielectric_flip(wo, wi));
 	const lobe_real two_sigma = v.o.z + v.t_o;
-	const lobe_real pdf = lobe_finite_or_zero(m.prob * (m.density + m.density) / two_sigma);
-	return m.valid ? pdf : LOBE_R(0.0);
+	const lobe_real pdf = m.prob * (m.density + m.density) / two_sigma;
+	return lobe_ggx_dielectric_keep(m, pdf);
 }
 
 /* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the
@@ -149,7 +160,7 @@ LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 
 	const lobe_real c = lobe_min(lobe_dot(v.o, m), one);
 	const lobe_fresnel fr = lobe_fresnel_dielectric(c, v.e);
 	const int reflects = u.z < fr.reflectance;
-	const int delta = (p.delta != 0u) & !reflects;
+	const int delta = p.delta != 0u;
 	const lobe_vec3 mirrored = lobe_reflect(v.o, m, c);
 	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, fr);
 	/* Towards the thinner side the rounding of c grows by 1/e^2; else bent is unit, and at e = 1 it is -o. */
@@ -160,19 +171,20 @@ LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 
 					   reflects ? mirrored.z : refracted.z);
 	/* Rounding can turn a facet away from wo where the cap's rim meets its opposite: c <= 0. */
 	const lobe_real outwards = reflects ? i.z : -i.z;
-	const int right_side = (lobe_min(v.o.z, c) > zero) & (outwards > zero);
+	const lobe_real right_side = lobe_min(lobe_min(v.o.z, c), outwards);
 	const lobe_vec3 wi = lobe_ggx_dielectric_flip(wo, i);
 
 	const lobe_real density = lobe_ggx_dielectric_pdf(p, wo, wi);
-	const lobe_real pdf = delta ? fr.transmittance : density;
+	const lobe_real refracts_pdf = delta ? fr.transmittance : density;
+	const lobe_real pdf = reflects ? density : refracts_pdf;
 	const lobe_real two_sigma = v.o.z + v.t_o;
 	const lobe_real masked = LOBE_R(0.5) * two_sigma * lobe_ggx_dielectric_g2_over_cos(p, v, i, reflects);
-	const lobe_real g2_over_g1 = delta ? one : masked;
-	const lobe_real w = lobe_finite_or_zero(g2_over_g1 * (reflects ? one : v.scale));
+	const lobe_real refracts_weight = v.scale * (delta ? one : masked);
+	const lobe_real w = lobe_finite_or_zero(reflects ? masked : refracts_weight);
 	const lobe_uint event =
 		reflects ? LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY
 			 : (delta ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY);
-	return lobe_sample_select(right_side & (pdf > zero), wi, lobe_rgb_make(w, w, w), pdf, event);
+	return lobe_sample_select(lobe_min(right_side, pdf) > zero, wi, lobe_rgb_make(w, w, w), pdf, event);
 }
 
 #endif
