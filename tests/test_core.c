@@ -8,6 +8,7 @@
 #include "lobe/core/event.h"
 #include "lobe/core/frame.h"
 
+#include "measured.h"
 #include "support.h"
 #include "unity.h"
 
@@ -19,19 +20,8 @@
 /* Half an ulp of 1: what one rounding takes at most, relative to the result. */
 #define U 0x1p-24
 
-static char outside[128];
-
-void setUp(void) { outside[0] = '\0'; }
-void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside); }
-
-/* Prints a measured maximum beside its bound; tearDown fails the test when one is outside, after all were printed. */
-static void measured(const char *what, double value, double bound)
-{
-	const int ok = value <= bound;
-	printf("  %-56s %11.4g  <= %11.4g%s\n", what, value, bound, ok ? "" : "  OUTSIDE");
-	if (!ok && outside[0] == '\0')
-		snprintf(outside, sizeof outside, "%s: %g > %g", what, value, bound);
-}
+void setUp(void) { measured_reset(); }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
 static float from_bits(uint32_t b)
 {
@@ -39,8 +29,6 @@ static float from_bits(uint32_t b)
 	memcpy(&x, &b, sizeof x);
 	return x;
 }
-
-static double larger(double a, double b) { return a > b ? a : b; }
 
 /* --- lobe_fma ----------------------------------------------------------------------------------------------------- */
 

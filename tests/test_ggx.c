@@ -1,6 +1,7 @@
 /* test_ggx.c - microfacet/ggx.h: the distribution, its projected area and masking, and visible-normal sampling. */
 #include "lobe/microfacet/ggx.h"
 
+#include "measured.h"
 #include "support.h"
 #include "unity.h"
 
@@ -12,21 +13,8 @@
 #define U  0x1p-24 /* half an ulp of 1: what one rounding takes at most, relative to the result */
 #define PI 3.14159265358979323846L
 
-static char outside[128];
-
-void setUp(void) { outside[0] = '\0'; }
-void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside); }
-
-/* Prints a measured maximum beside its bound; tearDown fails the test when one is outside, after all were printed. */
-static void measured(const char *what, double value, double bound)
-{
-	const int ok = value <= bound;
-	printf("  %-60s %11.4g  <= %11.4g%s\n", what, value, bound, ok ? "" : "  OUTSIDE");
-	if (!ok && outside[0] == '\0')
-		snprintf(outside, sizeof outside, "%s: %g > %g", what, value, bound);
-}
-
-static double larger(double a, double b) { return a > b ? a : b; }
+void setUp(void) { measured_reset(); }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
 /* A NaN is larger than everything. */
 static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }

@@ -1,6 +1,7 @@
 /* test_warp.c - core/warp.h: domains, densities by chi-square and quadrature, inverses. */
 #include "lobe/core/warp.h"
 
+#include "measured.h"
 #include "support.h"
 #include "unity.h"
 
@@ -13,21 +14,8 @@
 #define PI    3.14159265358979323846
 #define CASES 500000u
 
-static char outside[128];
-
-void setUp(void) { outside[0] = '\0'; }
-void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(outside[0] == '\0', outside); }
-
-/* Prints a measured maximum beside its bound; tearDown fails the test when one is outside, after all were printed. */
-static void measured(const char *what, double value, double bound)
-{
-	const int ok = value <= bound;
-	printf("  %-56s %11.4g  <= %11.4g%s\n", what, value, bound, ok ? "" : "  OUTSIDE");
-	if (!ok && outside[0] == '\0')
-		snprintf(outside, sizeof outside, "%s: %g > %g", what, value, bound);
-}
-
-static double larger(double a, double b) { return a > b ? a : b; }
+void setUp(void) { measured_reset(); }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
 /* Half angles from a thousandth of a degree to the whole sphere. */
 static const float heights[] = {0x1p-32f, 1e-4f, 0.3f, 1.0f, 1.7f, 2.0f};
@@ -280,9 +268,9 @@ static void test_chi_square(void)
 		printf("  %-40s p = %8.3g   with a density 5 %% off: p = %8.3g   level %.3g\n", warps[k].name, p,
 		       planted, level);
 		if (p <= level)
-			snprintf(outside, sizeof outside, "%s: chi-square p = %g", warps[k].name, p);
+			measured(warps[k].name, -p, -level);
 		if (planted > level)
-			snprintf(outside, sizeof outside, "%s: the planted density was not caught", warps[k].name);
+			measured("the planted density was not caught", planted, level);
 	}
 }
 
