@@ -476,7 +476,7 @@ static void test_visible_chi_square(void)
 		printf("  alpha %-6g %-6g cos %-6g p = %8.3g   level %.3g\n", (double)cases[i].ax, (double)cases[i].ay,
 		       cases[i].cosine, p, level);
 		if (p <= level)
-			snprintf(outside, sizeof outside, "case %zu: chi-square p = %g", i, p);
+			measured("the chi-square p of that case, negated", -p, -level);
 	}
 	const lobe_ggx d = lobe_ggx_make(0.5f, 0.05f);
 	const lobe_vec3 w = at_cosine(0.6, 0.9);
