@@ -24,7 +24,7 @@ typedef struct {
  * c = 0. Below 2^-40 c counts as 2^-40. A NaN eta gives NaN.
  *
  * Relative error, eta > 1: reflectance 9.3e-7, transmittance 4.4e-7, cos_t 1.4e-7; eta < 1, beyond what a rounding of
- * eta or c does near the edge of total reflection: 7.7e-7, 3.3e-7, 1.3e-7 (tests/test_fresnel.c, against MPFR). */
+ * eta or c does near the edge of total reflection: 7.7e-7, 3.4e-7, 1.4e-7 (tests/test_fresnel.c, against MPFR). */
 LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c_in, lobe_real eta)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
@@ -108,7 +108,7 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
  * which does not. Multiplied through by B = max(A, K), both cases need one root and no division:
  *	F_s = N/D,  N, D = (q + c^2) B -+ X c,        X = q + t if t >= 0, else 2nk
  *	F = F_s E/(E + X c s^2),                      E = (q c^2 + s^4) B
- * where the second line is (F_s + F_p)/2. Error 2.8e-7 relative for real metals, 3.1e-7 absolute over the domain, but
+ * where the second line is (F_s + F_p)/2. Error 3.1e-7 relative for real metals, 3.1e-7 absolute over the domain, but
  * for what a rounding of t does where n^2 is near sin^2 and k near 0 (tests/test_fresnel.c).
  *
  * The terms of F = N E/(D (E + X c s^2)), of which numerator and denominator are made. */
