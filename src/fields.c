@@ -26,17 +26,17 @@ typedef struct {
 
 /* One float rounding is allowed at the ends. */
 #define ALPHA_MIN 0.99999e-4
-#define GGX(lobe)                                                                                                      \
-	REAL(lobe, ggx.alpha_x, ALPHA_MIN, 1), REAL(lobe, ggx.alpha_y, ALPHA_MIN, 1),                                  \
-		REAL(lobe, ggx.inv_alpha_x, 1, 1 / ALPHA_MIN), REAL(lobe, ggx.inv_alpha_y, 1, 1 / ALPHA_MIN),          \
-		REAL(lobe, ggx.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
+#define STRETCH(lobe)                                                                                                  \
+	REAL(lobe, stretch.alpha_x, ALPHA_MIN, 1), REAL(lobe, stretch.alpha_y, ALPHA_MIN, 1),                          \
+		REAL(lobe, stretch.inv_alpha_x, 1, 1 / ALPHA_MIN), REAL(lobe, stretch.inv_alpha_y, 1, 1 / ALPHA_MIN),  \
+		REAL(lobe, stretch.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
 
 static const field fields_lambert[] = {RGB(lambert, reflectance, 0, 1)};
 
-static const field fields_ggx_conductor[] = {GGX(ggx_conductor), RGB(ggx_conductor, eta, 0.99999e-3, 1000),
+static const field fields_ggx_conductor[] = {STRETCH(ggx_conductor), RGB(ggx_conductor, eta, 0.99999e-3, 1000),
 					     RGB(ggx_conductor, k, 0, 1000)};
 
-static const field fields_ggx_dielectric[] = {GGX(ggx_dielectric), REAL(ggx_dielectric, eta, 0.99999e-3, 1000.01),
+static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric), REAL(ggx_dielectric, eta, 0.99999e-3, 1000.01),
 					      REAL(ggx_dielectric, inv_eta, 0.99999e-3, 1000.01),
 					      UINT(ggx_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
 					      UINT(ggx_dielectric, delta, 1)};

@@ -191,8 +191,8 @@ static void test_clamped_alpha(void)
 		lobe_scene *s;
 		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, &m, 1));
 		lobe_scene_destroy(s);
-		TEST_ASSERT_TRUE(m.as.ggx_dielectric.ggx.alpha_x >= LOBE_ALPHA_MIN &&
-				 m.as.ggx_dielectric.ggx.alpha_x <= 1);
+		TEST_ASSERT_TRUE(m.as.ggx_dielectric.stretch.alpha_x >= LOBE_ALPHA_MIN &&
+				 m.as.ggx_dielectric.stretch.alpha_x <= 1);
 	}
 	lobe_scene_destroy(NULL);
 }

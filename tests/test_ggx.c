@@ -1,5 +1,5 @@
 /* test_ggx.c - microfacet/ggx.h: the distribution, its projected area and masking, and visible-normal sampling. */
-#include "lobe/microfacet/ggx.h"
+#include "stretched_ggx.h"
 
 #include "measured.h"
 #include "support.h"
@@ -73,11 +73,11 @@ static void test_d(void)
 	double worst = 0.0, worst_narrow = 0.0;
 	for (size_t i = 0; i < WIDTHS; i++) {
 		for (size_t j = 0; j < WIDTHS; j++) {
-			const lobe_ggx d = lobe_ggx_make(widths[i], widths[j]);
+			const lobe_stretch d = lobe_stretch_make(widths[i], widths[j]);
 			for (uint64_t l = 0; l < 20000; l++) {
 				const lobe_vec3 m = direction(1, l);
 				const long double e = exact_d(widths[i], widths[j], m);
-				const double error = fabs((double)(((long double)lobe_ggx_d(d, m) - e) / e));
+				const double error = fabs((double)(((long double)stretched_ggx_d(d, m) - e) / e));
 				worst = worse(worst, error);
 				if (i == j && i < 5)
 					worst_narrow = worse(worst_narrow, error);
@@ -95,7 +95,7 @@ static void test_d_peak(void)
 {
 	for (size_t i = 0; i < 5; i++) {
 		const float a = widths[i];
-		const lobe_ggx d = lobe_ggx_make(a, a);
+		const lobe_stretch d = lobe_stretch_make(a, a);
 		double worst = 0.0, worst_cos2 = 0.0, worst_karis = 0.0;
 		for (uint64_t l = 0; l < 100000; l++) {
 			const double s = 4.0 * (double)a * (double)test_uniform(2, 2 * l),
@@ -103,7 +103,7 @@ static void test_d_peak(void)
 			const lobe_vec3 m = {(float)(s * cos(phi)), (float)(s * sin(phi)),
 					     (float)sqrt((1.0 - s) * (1.0 + s))};
 			const long double e = exact_d(a, a, m);
-			worst = worse(worst, fabs((double)(((long double)lobe_ggx_d(d, m) - e) / e)));
+			worst = worse(worst, fabs((double)(((long double)stretched_ggx_d(d, m) - e) / e)));
 			worst_cos2 = worse(worst_cos2, fabs((double)(((long double)d_one_minus_cos2(a, m.z) - e) / e)));
 			worst_karis = worse(worst_karis, fabs((double)(((long double)d_karis(a, m.z) - e) / e)));
 		}
@@ -122,18 +122,18 @@ static void test_d_domain(void)
 {
 	const float corners[] = {-1.0f, -0x1p-149f, 0.0f};
 	for (size_t i = 0; i < WIDTHS; i++) {
-		const lobe_ggx d = lobe_ggx_make(widths[i], widths[WIDTHS - 1 - i]);
+		const lobe_stretch d = lobe_stretch_make(widths[i], widths[WIDTHS - 1 - i]);
 		for (size_t j = 0; j < sizeof corners / sizeof corners[0]; j++)
-			TEST_ASSERT_TRUE(lobe_ggx_d(d, lobe_vec3_make(0.6f, 0.8f, corners[j])) == 0.0f);
-		TEST_ASSERT_TRUE(lobe_ggx_inv_q(d, lobe_vec3_make(0.0f, 0.0f, 0.0f)) > LOBE_REAL_MAX);
+			TEST_ASSERT_TRUE(stretched_ggx_d(d, lobe_vec3_make(0.6f, 0.8f, corners[j])) == 0.0f);
+		TEST_ASSERT_TRUE(lobe_ggx_density(lobe_vec3_make(0.0f, 0.0f, 0.0f)).inv > LOBE_REAL_MAX);
 		for (uint64_t l = 0; l < 1000; l++) {
-			const float v = lobe_ggx_d(d, direction(3, l));
+			const float v = stretched_ggx_d(d, direction(3, l));
 			TEST_ASSERT_TRUE(v > 0.0f && v <= LOBE_REAL_MAX);
 		}
 	}
 	/* Widths are clamped, and a NaN is kept. */
-	TEST_ASSERT_TRUE(lobe_ggx_make(0.0f, 7.0f).alpha_x == 1e-4f && lobe_ggx_make(0.0f, 7.0f).alpha_y == 1.0f);
-	TEST_ASSERT_TRUE(isnan(lobe_ggx_make(NAN, 0.5f).alpha_x) && lobe_ggx_make(NAN, 0.5f).alpha_y == 0.5f);
+	TEST_ASSERT_TRUE(lobe_stretch_make(0.0f, 7.0f).alpha_x == 1e-4f && lobe_stretch_make(0.0f, 7.0f).alpha_y == 1.0f);
+	TEST_ASSERT_TRUE(isnan(lobe_stretch_make(NAN, 0.5f).alpha_x) && lobe_stretch_make(NAN, 0.5f).alpha_y == 0.5f);
 }
 
 /* --- integrals of D --------------------------------------------------------------------------------------------------
@@ -145,7 +145,7 @@ typedef struct {
 
 /* A normal of the surface from one of the unit hemisphere that is stretched onto it, and the ratio of their solid
  * angles: m = M h/|M h| with M = diag(ax, ay, 1), dm/dh = det M/|M h|^3. However narrow D is, it is smooth in h. */
-static lobe_vec3 stretched(lobe_ggx d, vec h, double *jacobian)
+static lobe_vec3 stretched(lobe_stretch d, vec h, double *jacobian)
 {
 	const double ax = (double)d.alpha_x, ay = (double)d.alpha_y;
 	const double x = ax * h.x, y = ay * h.y, len = sqrt(x * x + y * y + h.z * h.z);
@@ -155,7 +155,7 @@ static lobe_vec3 stretched(lobe_ggx d, vec h, double *jacobian)
 
 /* What is integrated: D(m) times cos of m and w. */
 typedef struct {
-	lobe_ggx d;
+	lobe_stretch d;
 	lobe_vec3 w;
 	double (*weight)(lobe_vec3 w, lobe_vec3 m);
 } integrand;
@@ -178,7 +178,7 @@ static double integrand_at(const integrand *f, double z, double phi)
 	const vec h = {s * cos(phi), s * sin(phi), z};
 	double jacobian;
 	const lobe_vec3 m = stretched(f->d, h, &jacobian);
-	return f->weight(f->w, m) * (double)lobe_ggx_d(f->d, m) * jacobian;
+	return f->weight(f->w, m) * (double)stretched_ggx_d(f->d, m) * jacobian;
 }
 
 /* Over z0..z1 and phi0..phi1 of h, n Gauss points each way. */
@@ -204,7 +204,7 @@ static void test_normalisation(void)
 	double worst = 0.0;
 	for (size_t i = 0; i < WIDTHS; i++) {
 		for (size_t j = 0; j < WIDTHS; j++) {
-			const integrand f = {lobe_ggx_make(widths[i], widths[j]), {0.0f, 0.0f, 1.0f}, weight_normal};
+			const integrand f = {lobe_stretch_make(widths[i], widths[j]), {0.0f, 0.0f, 1.0f}, weight_normal};
 			worst = worse(worst, fabs(integrate(&f, 0.0, 1.0, 0.0, 2.0 * (double)PI, 40) - 1.0));
 		}
 	}
@@ -213,7 +213,7 @@ static void test_normalisation(void)
 }
 
 /* w stretched the other way, into the space of h: there visible means w'.h > 0. */
-static vec unstretched(lobe_ggx d, lobe_vec3 w)
+static vec unstretched(lobe_stretch d, lobe_vec3 w)
 {
 	const double x = (double)d.alpha_x * (double)w.x, y = (double)d.alpha_y * (double)w.y, z = (double)w.z;
 	const double len = sqrt(x * x + y * y + z * z);
@@ -250,7 +250,7 @@ static void test_projected_area(void)
 	for (size_t i = 0; i < WIDTHS; i++) {
 		for (size_t j = 0; j < WIDTHS; j++) {
 			for (size_t k = 0; k < sizeof cosines / sizeof cosines[0]; k++) {
-				integrand f = {lobe_ggx_make(widths[i], widths[j]), at_cosine(cosines[k], 0.7),
+				integrand f = {lobe_stretch_make(widths[i], widths[j]), at_cosine(cosines[k], 0.7),
 					       weight_visible};
 				gsl_function row;
 				row.function = visible_row;
@@ -260,7 +260,7 @@ static void test_projected_area(void)
 				const double split = sqrt(w.x * w.x + w.y * w.y);
 				const double sigma = gsl_integration_glfixed(&row, 0.0, split, rule) +
 						     gsl_integration_glfixed(&row, split, 1.0, rule);
-				const double t = (double)lobe_ggx_t(f.d, f.w);
+				const double t = (double)stretched_ggx_t(f.d, f.w);
 				worst = worse(worst, fabs(0.5 * ((double)f.w.z + t) / sigma - 1.0));
 			}
 		}
@@ -282,14 +282,14 @@ static long double exact_lambda(float ax, float ay, lobe_vec3 w)
 	return 0.5L * (sqrtl(1.0L + (x * x + y * y) / (z * z)) - 1.0L);
 }
 
-static float g1(lobe_ggx d, lobe_vec3 w)
+static float g1(lobe_stretch d, lobe_vec3 w)
 {
-	const float t = lobe_ggx_t(d, w);
+	const float t = stretched_ggx_t(d, w);
 	return (w.z + w.z) / (w.z + t);
 }
 
 /* Lambda as printed, in float: what the header avoids. */
-static float g1_from_lambda(lobe_ggx d, lobe_vec3 w)
+static float g1_from_lambda(lobe_stretch d, lobe_vec3 w)
 {
 	const float x = d.alpha_x * w.x, y = d.alpha_y * w.y;
 	const float tan2 = (x * x + y * y) / (w.z * w.z);
@@ -302,15 +302,15 @@ static void test_masking(void)
 	for (size_t i = 0; i < WIDTHS; i++) {
 		for (size_t j = 0; j < WIDTHS; j++) {
 			const float ax = widths[i], ay = widths[j];
-			const lobe_ggx d = lobe_ggx_make(ax, ay);
+			const lobe_stretch d = lobe_stretch_make(ax, ay);
 			for (uint64_t l = 0; l < 8000; l++) {
 				const lobe_vec3 o = direction(4, l), w = direction(5, l * 7 + 1);
 				const long double lo = exact_lambda(ax, ay, o), li = exact_lambda(ax, ay, w);
 				const long double t = (long double)o.z * (1.0L + 2.0L * lo);
-				worst_t = worse(worst_t, fabs((double)(((long double)lobe_ggx_t(d, o) - t) / t)));
+				worst_t = worse(worst_t, fabs((double)(((long double)stretched_ggx_t(d, o) - t) / t)));
 				worst_g1 = worse(worst_g1, fabs((double)((long double)g1(d, o) * (1.0L + lo) - 1.0L)));
 				const float g2_over_cos =
-					lobe_ggx_g2_over_cos(o.z, lobe_ggx_t(d, o), w.z, lobe_ggx_t(d, w));
+					lobe_smith_g2_over_cos(o.z, stretched_ggx_t(d, o), w.z, stretched_ggx_t(d, w));
 				const long double g2 = (long double)g2_over_cos * (long double)o.z;
 				worst_g2 = worse(worst_g2, fabs((double)(g2 * (1.0L + lo + li) - 1.0L)));
 				const double least = fmin((double)g1(d, o), (double)g1(d, w));
@@ -335,30 +335,30 @@ static void test_masking(void)
 /* GGX of any width is the one of width 1, stretched (Heitz 2014, section 5.3). */
 static void test_stretch_invariance(void)
 {
-	const lobe_ggx one = lobe_ggx_make(1.0f, 1.0f);
+	const lobe_stretch one = lobe_stretch_make(1.0f, 1.0f);
 	double worst_d = 0.0, worst_t = 0.0, worst_sample = 0.0;
 	for (size_t i = 0; i < WIDTHS; i++) {
 		for (size_t j = 0; j < WIDTHS; j++) {
-			const lobe_ggx d = lobe_ggx_make(widths[i], widths[j]);
+			const lobe_stretch d = lobe_stretch_make(widths[i], widths[j]);
 			for (uint64_t l = 0; l < 4000; l++) {
 				const lobe_vec3 w = direction(6, l);
 				/* D_M(m) = D(m')/(ax ay |M^T m|^4) with m' = M^T m = (x/ax, y/ay, z), normalised. */
 				const double x = (double)w.x / (double)widths[i], y = (double)w.y / (double)widths[j];
 				const double len2 = x * x + y * y + (double)w.z * (double)w.z, len = sqrt(len2);
 				const lobe_vec3 m = {(float)(x / len), (float)(y / len), (float)((double)w.z / len)};
-				const double e = (double)lobe_ggx_d(one, m) /
+				const double e = (double)stretched_ggx_d(one, m) /
 						 ((double)widths[i] * (double)widths[j] * len2 * len2);
 				/* Underflow of m.z in the stretched space says nothing. */
 				if (m.z > 0.0f)
-					worst_d = worse(worst_d, fabs((double)lobe_ggx_d(d, w) / e - 1.0));
+					worst_d = worse(worst_d, fabs((double)stretched_ggx_d(d, w) / e - 1.0));
 				/* t is the length of the other stretch, and 1 for the unit vector along it. */
 				const vec v = unstretched(d, w);
 				const lobe_vec3 o = {(float)v.x, (float)v.y, (float)v.z};
-				worst_t = worse(worst_t, fabs((double)lobe_ggx_t(one, o) - 1.0));
+				worst_t = worse(worst_t, fabs((double)stretched_ggx_t(one, o) - 1.0));
 				/* The same u picks the same facet. */
 				const lobe_vec2 u = {test_uniform(7, 2 * l), test_uniform(7, 2 * l + 1)};
-				const lobe_vec3 a = lobe_ggx_sample_visible(d, w, lobe_ggx_t(d, w), u);
-				const lobe_vec3 b = lobe_ggx_sample_visible(one, o, lobe_ggx_t(one, o), u);
+				const lobe_vec3 a = stretched_ggx_visible(d, w, stretched_ggx_t(d, w), u);
+				const lobe_vec3 b = stretched_ggx_visible(one, o, stretched_ggx_t(one, o), u);
 				worst_sample = worse(worst_sample, fabs((double)a.x / (double)widths[i] - (double)b.x));
 				worst_sample = worse(worst_sample, fabs((double)a.y / (double)widths[j] - (double)b.y));
 				worst_sample = worse(worst_sample, fabs((double)a.z - (double)b.z));
@@ -380,10 +380,10 @@ static void test_stretch_invariance(void)
 #define Z_BINS   16
 #define PHI_BINS 24
 
-typedef lobe_vec3 (*sampler)(lobe_ggx d, lobe_vec3 w, float t, lobe_vec2 u);
+typedef lobe_vec3 (*sampler)(lobe_stretch d, lobe_vec3 w, float t, lobe_vec2 u);
 
 /* Planted: the cap reaches down to +w'.z in place of -w'.z. */
-static lobe_vec3 sample_wrong_height(lobe_ggx d, lobe_vec3 w, float t, lobe_vec2 u)
+static lobe_vec3 sample_wrong_height(lobe_stretch d, lobe_vec3 w, float t, lobe_vec2 u)
 {
 	const float height = 1.0f - w.z / t;
 	const lobe_vec3 c = lobe_spherical_cap(u, height);
@@ -392,12 +392,12 @@ static lobe_vec3 sample_wrong_height(lobe_ggx d, lobe_vec3 w, float t, lobe_vec2
 }
 
 /* Planted, and harder to see: w is stretched by a width that is 3 % off. */
-static lobe_vec3 sample_wrong_width(lobe_ggx d, lobe_vec3 w, float t, lobe_vec2 u)
+static lobe_vec3 sample_wrong_width(lobe_stretch d, lobe_vec3 w, float t, lobe_vec2 u)
 {
-	lobe_ggx wide = d;
+	lobe_stretch wide = d;
 	(void)t;
 	wide.alpha_x *= 1.03f;
-	return lobe_ggx_sample_visible(wide, w, lobe_ggx_t(wide, w), u);
+	return stretched_ggx_visible(wide, w, stretched_ggx_t(wide, w), u);
 }
 
 /* The probability that chance alone gives this much disagreement between counts and expectations. Cells that expect
@@ -427,12 +427,12 @@ static double chi_square_p(const double *expected, const uint32_t *count, size_t
 
 /* Chi-square of the normals in the space of h, where cells of equal size suit every width, with D and w.m of the header
  * and the normalisation sigma = (z + t)/2. */
-static double visible_p_value(sampler sample, lobe_ggx d, lobe_vec3 w, uint32_t stream)
+static double visible_p_value(sampler sample, lobe_stretch d, lobe_vec3 w, uint32_t stream)
 {
 	static uint32_t count[Z_BINS * PHI_BINS];
 	static double expected[Z_BINS * PHI_BINS];
 	const integrand f = {d, w, weight_visible};
-	const float t = lobe_ggx_t(d, w);
+	const float t = stretched_ggx_t(d, w);
 	const double sigma = 0.5 * ((double)w.z + (double)t), two_pi = 2.0 * (double)PI;
 	for (int i = 0; i < Z_BINS * PHI_BINS; i++) {
 		const double z = (double)(i / PHI_BINS) / Z_BINS, phi = two_pi * (i % PHI_BINS) / PHI_BINS;
@@ -470,15 +470,15 @@ static void test_visible_chi_square(void)
 	/* Sidak: all cases together reject a right sampler in 1 of 100 sets of random numbers (ours are fixed). */
 	const double level = 1.0 - pow(0.99, 1.0 / (double)n);
 	for (size_t i = 0; i < n; i++) {
-		const lobe_ggx d = lobe_ggx_make(cases[i].ax, cases[i].ay);
+		const lobe_stretch d = lobe_stretch_make(cases[i].ax, cases[i].ay);
 		const lobe_vec3 w = at_cosine(cases[i].cosine, cases[i].phi);
-		const double p = visible_p_value(lobe_ggx_sample_visible, d, w, 10 + (uint32_t)i);
+		const double p = visible_p_value(stretched_ggx_visible, d, w, 10 + (uint32_t)i);
 		printf("  alpha %-6g %-6g cos %-6g p = %8.3g   level %.3g\n", (double)cases[i].ax, (double)cases[i].ay,
 		       cases[i].cosine, p, level);
 		if (p <= level)
 			measured("the chi-square p of that case, negated", -p, -level);
 	}
-	const lobe_ggx d = lobe_ggx_make(0.5f, 0.05f);
+	const lobe_stretch d = lobe_stretch_make(0.5f, 0.05f);
 	const lobe_vec3 w = at_cosine(0.6, 0.9);
 	const double height = visible_p_value(sample_wrong_height, d, w, 10),
 		     width = visible_p_value(sample_wrong_width, d, w, 10);
@@ -498,18 +498,18 @@ static void test_visible_extremes(void)
 	double lowest = 1.0, shortest = 10.0, hidden = 0.0;
 	uint32_t bad = 0;
 	for (size_t i = 0; i < WIDTHS * WIDTHS; i++) {
-		const lobe_ggx d = lobe_ggx_make(widths[i / WIDTHS], widths[i % WIDTHS]);
+		const lobe_stretch d = lobe_stretch_make(widths[i / WIDTHS], widths[i % WIDTHS]);
 		for (size_t j = 0; j < 7 * 6; j++) {
 			lobe_vec3 w = at_cosine(cosines[j / 6], azimuths[j % 6]);
 			for (int k = 0; k < 2; k++) {
-				const float t = lobe_ggx_t(d, w);
+				const float t = stretched_ggx_t(d, w);
 				for (uint64_t l = 0; l < corners * corners + 200; l++) {
 					/* Near the rim of the cap as well, where the normal is shortest. */
 					lobe_vec2 u = {corner[l % corners], corner[l / corners % corners]};
 					if (l >= corners * corners)
 						u = lobe_vec2_make(test_uniform(30, l),
 								   l & 1 ? 0x1.fffffep-1f : test_uniform(31, l));
-					const lobe_vec3 m = lobe_ggx_sample_visible(d, w, t, u);
+					const lobe_vec3 m = stretched_ggx_visible(d, w, t, u);
 					const lobe_vec3 n = lobe_normalize(m);
 					const double len = sqrt((double)m.x * (double)m.x + (double)m.y * (double)m.y +
 								(double)m.z * (double)m.z);

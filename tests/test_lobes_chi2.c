@@ -343,9 +343,9 @@ static void test_a_wrong_pdf_is_caught(void)
 				const lobe_real ax = (lobe_real)(1.03 * c->alpha_x),
 						ay = (lobe_real)(1.03 * c->alpha_y);
 				if (c->kind == LOBE_KIND_GGX_CONDUCTOR)
-					s.wrong_bsdf.as.ggx_conductor.ggx = lobe_ggx_make(ax, ay);
+					s.wrong_bsdf.as.ggx_conductor.stretch = lobe_stretch_make(ax, ay);
 				else if (c->kind == LOBE_KIND_GGX_DIELECTRIC)
-					s.wrong_bsdf.as.ggx_dielectric.ggx = lobe_ggx_make(ax, ay);
+					s.wrong_bsdf.as.ggx_dielectric.stretch = lobe_stretch_make(ax, ay);
 				else
 					continue;
 			}

@@ -1,6 +1,7 @@
 /* test_lobes_energy.c - how much light a lobe returns: albedo, furnaces with exact answers, masking across it. */
 #include "cases.h"
 #include "quadrature.h"
+#include "stretched_ggx.h"
 #include "support.h"
 #include "textbook.h"
 
@@ -24,7 +25,7 @@ static lobe_vec3 to_vec3(const double v[3]) { return lobe_vec3_make((float)v[0],
 /* f |cos theta_i| of something, as seen through a map of directions. */
 typedef struct {
 	const lobe_bsdf *bsdf; /* NULL: the GGX core functions with F = 1 */
-	lobe_ggx ggx;
+	lobe_stretch ggx;
 	lobe_vec3 wo;
 	direction_map map;
 } view;
@@ -32,8 +33,8 @@ typedef struct {
 static double core_f(const view *v, lobe_vec3 wi)
 {
 	const lobe_vec3 h = lobe_normalize(lobe_vec3_add(v->wo, wi));
-	const lobe_real g = lobe_ggx_g2_over_cos(v->wo.z, lobe_ggx_t(v->ggx, v->wo), wi.z, lobe_ggx_t(v->ggx, wi));
-	return wi.z > 0.0f ? 0.25 * (double)lobe_ggx_d(v->ggx, h) * (double)g : 0.0;
+	const lobe_real g = lobe_smith_g2_over_cos(v->wo.z, stretched_ggx_t(v->ggx, v->wo), wi.z, stretched_ggx_t(v->ggx, wi));
+	return wi.z > 0.0f ? 0.25 * (double)stretched_ggx_d(v->ggx, h) * (double)g : 0.0;
 }
 
 static double reflected_energy(void *context, double x, double y)
@@ -63,7 +64,7 @@ static double over_square(quadrature *q, int side)
 	return sum;
 }
 
-static double albedo(const lobe_bsdf *bsdf, lobe_ggx ggx, lobe_vec3 wo, map_kind kind, double eta, double tolerance,
+static double albedo(const lobe_bsdf *bsdf, lobe_stretch ggx, lobe_vec3 wo, map_kind kind, double eta, double tolerance,
 		     double *error)
 {
 	const double w[3] = {(double)wo.x, (double)wo.y, (double)wo.z};
@@ -95,7 +96,7 @@ static void test_no_lobe_returns_more_than_it_receives(void)
 	for (size_t i = 0; i < case_count(); i++) {
 		const test_case *c = case_at(i);
 		const int facets = c->alpha_x > 0.0;
-		const lobe_ggx ggx = lobe_ggx_make((lobe_real)c->alpha_x, (lobe_real)c->alpha_y);
+		const lobe_stretch ggx = lobe_stretch_make((lobe_real)c->alpha_x, (lobe_real)c->alpha_y);
 		for (size_t k = 0; k < COSINES; k++) {
 			const lobe_vec3 wo = direction(cosines[k], 1.0 + (double)k);
 			double error = 0.0;
@@ -126,7 +127,7 @@ static void test_no_lobe_returns_more_than_it_receives(void)
 /* The exact single-scattering albedo of GGX at alpha = 1 with F = 1: the integral of 1/(2 pi (mu_o + mu_i)) mu_i. */
 static void test_furnace_at_alpha_1_is_exact(void)
 {
-	const lobe_ggx one = lobe_ggx_make(1.0f, 1.0f);
+	const lobe_stretch one = lobe_stretch_make(1.0f, 1.0f);
 	const lobe_real n = 1e-3f, k = 1000.0f;
 	const lobe_bsdf mirror = lobe_bsdf_from_ggx_conductor(
 		lobe_ggx_conductor_make(1.0f, 1.0f, lobe_rgb_make(n, n, n), lobe_rgb_make(k, k, k)));
@@ -162,7 +163,7 @@ static void test_furnace_matches_the_reference_table(void)
 	double worst = 0.0;
 	for (int i = 0; i < 5; i++)
 		for (int k = 0; k < 6; k++) {
-			const lobe_ggx ggx = lobe_ggx_make((lobe_real)alphas[i], (lobe_real)alphas[i]);
+			const lobe_stretch ggx = lobe_stretch_make((lobe_real)alphas[i], (lobe_real)alphas[i]);
 			const double e = albedo(NULL, ggx, direction(mus[k], 2.0), MAP_REFLECT, 0.0, 1e-7, NULL);
 			if (fabs(e - reference[i][k]) > 6e-5)
 				printf("  alpha %.2f mu %.2f: %.6f, table %.4f\n", alphas[i], mus[k], e,
@@ -178,7 +179,7 @@ static void test_furnace_matches_the_reference_table(void)
 enum { SMITH, SCHLICK_SMITH };
 
 typedef struct {
-	lobe_ggx ggx;
+	lobe_stretch ggx;
 	direction_map map;
 	lobe_vec3 wo;
 	int masking;
@@ -191,7 +192,7 @@ static double g1_over_cos(const weak_furnace *w)
 	const double k = 0.5 * (double)w->ggx.alpha_x;
 	if (w->masking == SCHLICK_SMITH)
 		return 1.0 / (z * (1.0 - k) + k);
-	return 2.0 / (z + (double)lobe_ggx_t(w->ggx, w->wo));
+	return 2.0 / (z + (double)stretched_ggx_t(w->ggx, w->wo));
 }
 
 static double weak_facets(void *context, double x, double y)
@@ -201,7 +202,7 @@ static double weak_facets(void *context, double x, double y)
 	const double area = map_facet(&w->map, x, y, m);
 	const double c = textbook_dot(w->map.o, m);
 	/* D from a half vector whose components are each rounded once: no cancellation at any alpha. */
-	const double inv_q = (double)lobe_ggx_inv_q(w->ggx, to_vec3(m));
+	const double inv_q = (double)lobe_ggx_density(lobe_stretch_facet(w->ggx, to_vec3(m))).inv;
 	return c > 0.0 ? g1_over_cos(w) * c * (double)w->ggx.norm * inv_q * inv_q * area : 0.0;
 }
 
@@ -223,14 +224,14 @@ static double weak_sphere(void *context, double x, double y)
 	for (int k = 0; k < 3; k++)
 		h[k] = w->map.o[k] + i[k];
 	textbook_normalize(h);
-	return area * 0.25 * g1_over_cos(w) * (double)lobe_ggx_d(w->ggx, to_vec3(h));
+	return area * 0.25 * g1_over_cos(w) * (double)stretched_ggx_d(w->ggx, to_vec3(h));
 }
 
 static double weak(quadrature_integrand f, double ax, double ay, double mu, int masking)
 {
 	const lobe_vec3 wo = direction(mu, 0.8);
 	const double o[3] = {(double)wo.x, (double)wo.y, (double)wo.z};
-	weak_furnace w = {lobe_ggx_make((lobe_real)ax, (lobe_real)ay), map_make(MAP_REFLECT, o, ax, ay, 1.0), wo,
+	weak_furnace w = {lobe_stretch_make((lobe_real)ax, (lobe_real)ay), map_make(MAP_REFLECT, o, ax, ay, 1.0), wo,
 			  masking};
 	quadrature q = {f, f == weak_facets ? visible_edge : NULL, NULL, &w, 1e-8, 1e-5, 6, 0.0};
 	return over_square(&q, 10);

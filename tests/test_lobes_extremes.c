@@ -242,8 +242,8 @@ typedef struct {
 	}
 #define RGB_FIELD(lobe, member) FIELD(lobe, member.r, 0), FIELD(lobe, member.g, 1), FIELD(lobe, member.b, 2)
 #define GGX_FIELD(lobe)                                                                                                \
-	FIELD(lobe, ggx.alpha_x, -1), FIELD(lobe, ggx.alpha_y, -1), FIELD(lobe, ggx.inv_alpha_x, -1),                  \
-		FIELD(lobe, ggx.inv_alpha_y, -1), FIELD(lobe, ggx.norm, -1)
+	FIELD(lobe, stretch.alpha_x, -1), FIELD(lobe, stretch.alpha_y, -1), FIELD(lobe, stretch.inv_alpha_x, -1),                  \
+		FIELD(lobe, stretch.inv_alpha_y, -1), FIELD(lobe, stretch.norm, -1)
 
 static const field fields_lambert[] = {RGB_FIELD(lambert, reflectance)};
 static const field fields_ggx_conductor[] = {GGX_FIELD(ggx_conductor), RGB_FIELD(ggx_conductor, eta),

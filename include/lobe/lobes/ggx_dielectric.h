@@ -1,190 +1,44 @@
 /* ggx_dielectric.h - rough glass: reflection and refraction by a GGX microsurface, from both sides.
  *
- * Walter et al. 2007, "Microfacet models for refraction through rough surfaces", with visible-normal sampling (Heitz and
- * d'Eon 2014; Dupuy and Benyoub 2023): a visible facet m, then reflection with probability F(o.m), else refraction.
- *
- * Joint masking: height-correlated on one side (Heitz 2014 eq. 99). Across the surface G1(o) G1(i), as Walter: the exact
- * value for Smith's uncorrelated heights is Beta(1 + Lambda_o, 1 + Lambda_i), to which the product is nearer than the
- * 1/(1 + Lambda_o + Lambda_i) of one side; tests/test_lobes_energy.c measures the distance. Single scattering: what would
- * hit the microsurface again is lost.
- *
- * Near eta = 1. A facet turns light by about |eta - 1|, so refracted light spreads over alpha |eta - 1|. Where that is
- * below LOBE_DIELECTRIC_DELTA, 32 roundings of a unit vector, no float direction can resolve the lobe: refraction is
- * then an event of LOBE_EVENT_DELTA, still through the sampled facet, and is not masked: at eta = 1 light passes
- * straight with weight 1 and nothing is reflected. The price is a step where that begins, up to G1(wo), which
- * tests/test_lobes_index.c prints: this close to 1 the model's masking is loss that only multiple scattering would
- * return. */
+ * The model, its parameters and what it does near eta = 1: microfacet/dielectric.h; its distribution: microfacet/ggx.h.
+ * Single scattering: what would hit the microsurface again is lost. */
 #ifndef LOBE_LOBES_GGX_DIELECTRIC_H
 #define LOBE_LOBES_GGX_DIELECTRIC_H
 
-#include "../core/event.h"
-#include "../core/fresnel.h"
-#include "../microfacet/ggx.h"
+#include "../microfacet/dielectric.h"
 
-#define LOBE_DIELECTRIC_DELTA LOBE_R(2e-6)
+typedef lobe_rough_dielectric lobe_ggx_dielectric;
 
-/* ggx: widths along tangent and bitangent. eta: index below over index above the surface, in [1/1000, 1000]; inv_eta is
- * 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. */
-typedef struct {
-	lobe_ggx ggx;
-	lobe_real eta, inv_eta;
-	lobe_uint transport, delta;
-} lobe_ggx_dielectric;
-
-/* Clamps alpha_x and alpha_y to [LOBE_ALPHA_MIN, 1]. Carries radiance; see lobe_ggx_dielectric_transport. */
+/* alpha_x, alpha_y: widths along tangent and bitangent, clamped to [LOBE_ALPHA_MIN, 1]. eta: index below over index above
+ * the surface, in [1/1000, 1000]. Carries radiance; see lobe_ggx_dielectric_transport. */
 LOBE_FN lobe_ggx_dielectric lobe_ggx_dielectric_make(lobe_real alpha_x, lobe_real alpha_y, lobe_real eta)
 {
-	lobe_ggx_dielectric p;
-	p.ggx = lobe_ggx_make(alpha_x, alpha_y);
-	p.eta = eta;
-	p.inv_eta = LOBE_R(1.0) / eta + (eta - eta); /* NaN for an infinite eta, not 0 */
-	p.transport = LOBE_TRANSPORT_RADIANCE;
-	p.delta = lobe_max(p.ggx.alpha_x, p.ggx.alpha_y) * lobe_abs(eta - LOBE_R(1.0)) < LOBE_DIELECTRIC_DELTA;
-	return p;
+	return lobe_rough_dielectric_make(alpha_x, alpha_y, eta);
 }
 
 /* The same surface for LOBE_TRANSPORT_RADIANCE or LOBE_TRANSPORT_IMPORTANCE (core/event.h). */
 LOBE_FN lobe_ggx_dielectric lobe_ggx_dielectric_transport(lobe_ggx_dielectric p, lobe_uint transport)
 {
-	p.transport = transport;
-	return p;
-}
-
-/* The interface seen from wo's side, with wo above: e is the far index over the near one. */
-typedef struct {
-	lobe_vec3 o;
-	lobe_real e, inv_e, t_o, scale;
-} lobe_ggx_dielectric_view;
-
-LOBE_FN lobe_ggx_dielectric_view lobe_ggx_dielectric_view_make(lobe_ggx_dielectric p, lobe_vec3 wo)
-{
-	const int above = wo.z > LOBE_R(0.0);
-	lobe_ggx_dielectric_view v;
-	v.o = lobe_vec3_make(wo.x, wo.y, lobe_abs(wo.z));
-	v.e = above ? p.eta : p.inv_eta;
-	v.inv_e = above ? p.inv_eta : p.eta;
-	v.t_o = lobe_ggx_t(p.ggx, wo);
-	v.scale = p.transport == LOBE_TRANSPORT_RADIANCE ? v.inv_e * v.inv_e : LOBE_R(1.0);
-	return v;
-}
-
-/* The facet that takes o to i. prob: F or 1 - F, by the event. density: its density dm/di D(m) o.m [1/sr], times
- * sigma(o). Both events are one formula in the unnormalised half vector H = o + e_r i, e_r = 1 for reflection:
- *	D(m) o.m |dm/di| = norm e_r^2 |o.H| |i.H|/Q(H)^2
- * in which every power of |H| has cancelled. facing > 0 where there is such a facet: both directions see its front, or
- * for a refraction one its front and one its back. (A number, as compilers make more of a minimum than of a chain of
- * truth values.) */
-typedef struct {
-	lobe_real prob, density, facing;
-	int reflects;
-} lobe_ggx_dielectric_facet;
-
-LOBE_FN lobe_ggx_dielectric_facet lobe_ggx_dielectric_facet_make(lobe_ggx_dielectric p, lobe_ggx_dielectric_view v,
-								 lobe_vec3 i)
-{
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const int reflects = i.z > zero;
-	const lobe_real e_r = reflects ? one : v.e;
-	const lobe_vec3 h = lobe_vec3_fma(e_r, i, v.o);
-	const lobe_real h2 = lobe_dot(h, h);
-	const lobe_real up = h.z < zero ? -one : one;
-	const lobe_real oh = reflects ? LOBE_R(0.5) * h2 : up * lobe_dot(v.o, h);
-	const lobe_real ih = reflects ? LOBE_R(0.5) * h2 : up * lobe_dot(i, h);
-	const lobe_real x = e_r * lobe_ggx_inv_q(p.ggx, h);
-	const lobe_fresnel fr = lobe_fresnel_dielectric(lobe_min(oh / lobe_sqrt(h2), one), v.e);
-	const lobe_real refracts = lobe_min(lobe_min(oh, -ih), -i.z);
-	const lobe_real refracts_to_density = p.delta == 0u ? refracts : zero;
-	const lobe_real sees = reflects ? i.z : refracts_to_density;
-	lobe_ggx_dielectric_facet f;
-	f.reflects = reflects;
-	f.facing = lobe_min(v.o.z, sees);
-	f.prob = reflects ? fr.reflectance : fr.transmittance;
-	f.density = p.ggx.norm * (oh * x) * (lobe_abs(ih) * x);
-	return f;
-}
-
-/* i as v sees it. */
-LOBE_FN lobe_vec3 lobe_ggx_dielectric_flip(lobe_vec3 wo, lobe_vec3 wi)
-{
-	return lobe_vec3_make(wi.x, wi.y, wo.z > LOBE_R(0.0) ? wi.z : -wi.z);
-}
-
-/* G2/z_o: height-correlated for a reflection, G1(o) G1(i) for a refraction, by one division. */
-LOBE_FN lobe_real lobe_ggx_dielectric_g2_over_cos(lobe_ggx_dielectric p, lobe_ggx_dielectric_view v, lobe_vec3 i,
-						  int reflects)
-{
-	const lobe_real z_i = lobe_abs(i.z);
-	const lobe_real t_i = lobe_ggx_t(p.ggx, i);
-	const lobe_real num = reflects ? z_i + z_i : LOBE_R(4.0) * z_i;
-	const lobe_real den = reflects ? lobe_fma(z_i, v.t_o, v.o.z * t_i) : (z_i + t_i) * (v.o.z + v.t_o);
-	return num / den;
-}
-
-/* x, which is >= 0 where m is a facet, or 0 where it is none or x is no finite number. */
-LOBE_FN lobe_real lobe_ggx_dielectric_keep(lobe_ggx_dielectric_facet m, lobe_real x)
-{
-	const lobe_real there = m.facing > LOBE_R(0.0) ? x : LOBE_R(0.0);
-	return lobe_abs(there) <= LOBE_REAL_MAX ? there : LOBE_R(0.0);
+	return lobe_rough_dielectric_transport(p, transport);
 }
 
 /* f |cos theta_i| [1/sr] */
 LOBE_FN lobe_rgb lobe_ggx_dielectric_eval(lobe_ggx_dielectric p, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_ggx_dielectric_view v = lobe_ggx_dielectric_view_make(p, wo);
-	const lobe_vec3 i = lobe_ggx_dielectric_flip(wo, wi);
-	const lobe_ggx_dielectric_facet m = lobe_ggx_dielectric_facet_make(p, v, i);
-	const lobe_real g = lobe_ggx_dielectric_g2_over_cos(p, v, i, m.reflects);
-	const lobe_real scale = m.reflects ? LOBE_R(1.0) : v.scale;
-	const lobe_real f = m.prob * scale * m.density * g;
-	const lobe_real kept = lobe_ggx_dielectric_keep(m, f);
-	return lobe_rgb_make(kept, kept, kept);
+	return lobe_rough_dielectric_eval(LOBE_NDF_GGX, p, wo, wi);
 }
 
 /* [1/sr] */
 LOBE_FN lobe_real lobe_ggx_dielectric_pdf(lobe_ggx_dielectric p, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_ggx_dielectric_view v = lobe_ggx_dielectric_view_make(p, wo);
-	const lobe_ggx_dielectric_facet m = lobe_ggx_dielectric_facet_make(p, v, lobe_ggx_dielectric_flip(wo, wi));
-	const lobe_real two_sigma = v.o.z + v.t_o;
-	const lobe_real pdf = m.prob * (m.density + m.density) / two_sigma;
-	return lobe_ggx_dielectric_keep(m, pdf);
+	return lobe_rough_dielectric_pdf(LOBE_NDF_GGX, p, wo, wi);
 }
 
 /* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the
  * light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is 1 - F of the sampled facet. */
 LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const lobe_ggx_dielectric_view v = lobe_ggx_dielectric_view_make(p, wo);
-	const lobe_vec3 m = lobe_normalize(lobe_ggx_sample_visible(p.ggx, v.o, v.t_o, lobe_vec2_make(u.x, u.y)));
-	const lobe_real c = lobe_min(lobe_dot(v.o, m), one);
-	const lobe_fresnel fr = lobe_fresnel_dielectric(c, v.e);
-	const int reflects = u.z < fr.reflectance;
-	const int delta = p.delta != 0u;
-	const lobe_vec3 mirrored = lobe_reflect(v.o, m, c);
-	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, fr);
-	/* Towards the thinner side the rounding of c grows by 1/e^2; else bent is unit, and at e = 1 it is -o. */
-	const lobe_real inv_length = one / lobe_sqrt(lobe_dot(bent, bent));
-	const lobe_real to_unit = v.e < one ? inv_length : one;
-	const lobe_vec3 refracted = lobe_vec3_scale(bent, to_unit);
-	const lobe_vec3 i = lobe_vec3_make(reflects ? mirrored.x : refracted.x, reflects ? mirrored.y : refracted.y,
-					   reflects ? mirrored.z : refracted.z);
-	/* Rounding can turn a facet away from wo where the cap's rim meets its opposite: c <= 0. */
-	const lobe_real outwards = reflects ? i.z : -i.z;
-	const lobe_real right_side = lobe_min(lobe_min(v.o.z, c), outwards);
-	const lobe_vec3 wi = lobe_ggx_dielectric_flip(wo, i);
-
-	const lobe_real density = lobe_ggx_dielectric_pdf(p, wo, wi);
-	const lobe_real refracts_pdf = delta ? fr.transmittance : density;
-	const lobe_real pdf = reflects ? density : refracts_pdf;
-	const lobe_real two_sigma = v.o.z + v.t_o;
-	const lobe_real masked = LOBE_R(0.5) * two_sigma * lobe_ggx_dielectric_g2_over_cos(p, v, i, reflects);
-	const lobe_real refracts_weight = v.scale * (delta ? one : masked);
-	const lobe_real w = lobe_finite_or_zero(reflects ? masked : refracts_weight);
-	const lobe_uint event =
-		reflects ? LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY
-			 : (delta ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY);
-	return lobe_sample_select(lobe_min(right_side, pdf) > zero, wi, lobe_rgb_make(w, w, w), pdf, event);
+	return lobe_rough_dielectric_sample(LOBE_NDF_GGX, p, wo, u);
 }
 
 #endif

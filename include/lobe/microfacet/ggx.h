@@ -1,87 +1,66 @@
-/* ggx.h - the anisotropic GGX (Trowbridge-Reitz) microsurface with Smith masking.
+/* ggx.h - GGX (Trowbridge-Reitz): the surface of a unit hemisphere, whose tangents stretch to any width.
  *
- * Trowbridge and Reitz 1975; Walter et al. 2007; Heitz 2014, "Understanding the masking-shadowing function".
- * Everything is written with t(w) = sqrt(ax^2 x^2 + ay^2 y^2 + z^2) in place of Lambda = (t/|z| - 1)/2: no tangent, no
- * division by a cosine, no cancellation at small roughness. For z > 0
- *	sigma(w) = (z + t)/2         projected area of the visible facets
- *	G1(w)    = z/sigma = 2z/(z + t)
- *	G2       = 2 z_o z_i/(z_i t_o + z_o t_i)     height-correlated, both directions on one side */
+ * Trowbridge and Reitz 1975; Walter et al. 2007; Heitz 2014, "Understanding the masking-shadowing function". The functions
+ * are those that facet.h explains. With v stretched, t(v) = |v|: Lambda = (|v|/|v.z| - 1)/2. */
 #ifndef LOBE_MICROFACET_GGX_H
 #define LOBE_MICROFACET_GGX_H
 
-#include "../core/constants.h"
 #include "../core/warp.h"
+#include "facet.h"
 
-/* Narrowest microsurface: make functions clamp alpha to [LOBE_ALPHA_MIN, 1]. */
-#define LOBE_ALPHA_MIN LOBE_R(1e-4)
+LOBE_FN lobe_real lobe_ggx_t(lobe_vec3 v) { return lobe_sqrt(lobe_fma(v.x, v.x, lobe_fma(v.y, v.y, v.z * v.z))); }
 
-LOBE_FN lobe_real lobe_clamp_alpha(lobe_real alpha) { return lobe_clamp(alpha, LOBE_ALPHA_MIN, LOBE_R(1.0)); }
-
-/* alpha_x, alpha_y: widths in [LOBE_ALPHA_MIN, 1]. The rest is prepared from them. */
-typedef struct {
-	lobe_real alpha_x, alpha_y;
-	lobe_real inv_alpha_x, inv_alpha_y;
-	lobe_real norm; /* 1/(pi alpha_x alpha_y) */
-} lobe_ggx;
-
-/* Clamps the widths to their domain; a NaN stays NaN. */
-LOBE_FN lobe_ggx lobe_ggx_make(lobe_real alpha_x, lobe_real alpha_y)
+/* pi D = 1/|h|^4. Infinite for h = 0, where there is no normal. */
+LOBE_FN lobe_facet_density lobe_ggx_density(lobe_vec3 h)
 {
-	lobe_ggx d;
-	d.alpha_x = lobe_clamp_alpha(alpha_x);
-	d.alpha_y = lobe_clamp_alpha(alpha_y);
-	d.inv_alpha_x = LOBE_R(1.0) / d.alpha_x;
-	d.inv_alpha_y = LOBE_R(1.0) / d.alpha_y;
-	d.norm = LOBE_INV_PI * d.inv_alpha_x * d.inv_alpha_y;
+	lobe_facet_density d;
+	d.inv = LOBE_R(1.0) / lobe_fma(h.x, h.x, lobe_fma(h.y, h.y, h.z * h.z));
+	d.factor = LOBE_R(1.0);
 	return d;
 }
 
-/* t(w). */
-LOBE_FN lobe_real lobe_ggx_t(lobe_ggx d, lobe_vec3 w)
+/* (t - |z|)/2 as (x^2 + y^2)/(2 (t + |z|)). */
+LOBE_FN lobe_real lobe_ggx_hidden(lobe_vec3 v)
 {
-	const lobe_real x = d.alpha_x * w.x;
-	const lobe_real y = d.alpha_y * w.y;
-	return lobe_sqrt(lobe_fma(x, x, lobe_fma(y, y, w.z * w.z)));
+	const lobe_real r2 = lobe_fma(v.x, v.x, v.y * v.y);
+	const lobe_real sum = lobe_ggx_t(v) + lobe_abs(v.z);
+	return LOBE_R(0.5) * r2 / sum;
 }
 
-/* 1/Q(h), Q = (hx/ax)^2 + (hy/ay)^2 + hz^2, for a half vector of any length: D(h/|h|) = norm |h|^4/Q^2, so whatever
- * multiplies D takes its share of the length and nothing is normalised. Infinite for h = 0, where there is no half
- * vector. */
-LOBE_FN lobe_real lobe_ggx_inv_q(lobe_ggx d, lobe_vec3 h)
-{
-	const lobe_real x = d.inv_alpha_x * h.x;
-	const lobe_real y = d.inv_alpha_y * h.y;
-	return LOBE_R(1.0) / lobe_fma(x, x, lobe_fma(y, y, h.z * h.z));
-}
+LOBE_FN lobe_real lobe_ggx_tail(lobe_real t2) { return LOBE_R(1.0) / (LOBE_R(1.0) + t2); }
 
-/* D(m), density of microfacet area per solid angle of m [1/sr]; |m| = 1, 0 for m.z <= 0. */
-LOBE_FN lobe_real lobe_ggx_d(lobe_ggx d, lobe_vec3 m)
-{
-	const lobe_real x = lobe_ggx_inv_q(d, m);
-	return m.z > LOBE_R(0.0) ? d.norm * x * x : LOBE_R(0.0);
-}
+/* q in (0, 1]. */
+LOBE_FN lobe_real lobe_ggx_tail_inverse(lobe_real q) { return (LOBE_R(1.0) - q) / q; }
 
-/* A microfacet normal seen from w (w.z > 0, unit), times a positive number: distributed as D(m) max(0, w.m)/sigma(w).
- * t: lobe_ggx_t(d, w). u in [0,1)^2.
+/* t: lobe_ggx_t(v); u in [0,1)^2. v.z > 0.
  *
- * Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps": in the space where the surface is a unit
- * hemisphere a point c uniform on the cap c.z >= -w'.z gives the normal c + w'. Its z, (1 - u.y)(1 + w'.z), is formed
- * directly and stays above 0. */
-LOBE_FN lobe_vec3 lobe_ggx_sample_visible(lobe_ggx d, lobe_vec3 w, lobe_real t, lobe_vec2 u)
+ * Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps": a point c uniform on the cap c.z >= -v.z/t
+ * of the unit sphere gives the normal c + v/t. Its z, (1 - u.y)(1 + v.z/t), is formed directly and stays above 0. */
+LOBE_FN lobe_vec3 lobe_ggx_visible_above(lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
 	const lobe_real one = LOBE_R(1.0);
 	const lobe_real inv_t = one / t;
-	const lobe_real height = lobe_fma(w.z, inv_t, one);
+	const lobe_real height = lobe_fma(v.z, inv_t, one);
 	const lobe_vec3 c = lobe_spherical_cap(u, height);
-	const lobe_real x = lobe_fma(d.alpha_x * w.x, inv_t, c.x);
-	const lobe_real y = lobe_fma(d.alpha_y * w.y, inv_t, c.y);
-	return lobe_vec3_make(d.alpha_x * x, d.alpha_y * y, (one - u.y) * height);
+	const lobe_real x = lobe_fma(v.x, inv_t, c.x);
+	const lobe_real y = lobe_fma(v.y, inv_t, c.y);
+	return lobe_vec3_make(x, y, (one - u.y) * height);
 }
 
-/* G2/z_o, both directions above the surface: 2 z_i/(z_i t_o + z_o t_i). */
-LOBE_FN lobe_real lobe_ggx_g2_over_cos(lobe_real z_o, lobe_real t_o, lobe_real z_i, lobe_real t_i)
+/* The same for v on either side: below the horizon 1 + v.z/t is (x^2 + y^2)/(t (t - v.z)). */
+LOBE_FN lobe_vec3 lobe_ggx_visible(lobe_vec3 v, lobe_vec2 u)
 {
-	return (z_i + z_i) / lobe_fma(z_i, t_o, z_o * t_i);
+	const lobe_real one = LOBE_R(1.0);
+	const lobe_real t = lobe_ggx_t(v);
+	const lobe_real inv_t = one / t;
+	const lobe_real r2 = lobe_fma(v.x, v.x, v.y * v.y);
+	const lobe_real below = r2 * inv_t / (t + lobe_abs(v.z));
+	const lobe_real above = lobe_fma(v.z, inv_t, one);
+	const lobe_real height = v.z < LOBE_R(0.0) ? below : above;
+	const lobe_vec3 c = lobe_spherical_cap(u, height);
+	const lobe_real x = lobe_fma(v.x, inv_t, c.x);
+	const lobe_real y = lobe_fma(v.y, inv_t, c.y);
+	return lobe_vec3_make(x, y, (one - u.y) * height);
 }
 
 #endif

@@ -1,0 +1,33 @@
+/* facet.h - what every distribution of microfacet normals tells, and the Smith masking that follows from it.
+ *
+ * A distribution X is the isotropic surface of width 1; linear maps (stretch.h, linear.h) make all others from it. Its
+ * header has, for directions v and normals h of any length,
+ *
+ *	lobe_X_density(h)       pi |h|^-4 D(h/|h|), as inv^2 factor, of degree -4 in h: at unit h it is pi D, and at
+ *	                        (slope, 0, 1) it is pi P22, the density of slopes
+ *	lobe_X_hidden(v)        |v.z| Lambda(v), degree 1: the projected area of the facets that face away from v above the
+ *	                        horizon. The same for v and -v
+ *	lobe_X_tail(t2)         the fraction of the mean plane under facets steeper than tan^2 = t2
+ *	lobe_X_tail_inverse(q)  the t2 of that
+ *	lobe_X_visible(v, u)    a normal with density D(m) max(0, v.m)/sigma(v), v on either side of the horizon
+ *
+ * From them: sigma(v) = max(v.z, 0) + hidden(v), the projected area of all facets that face v, and
+ *	t(v) = |v.z| + 2 hidden(v) = sigma(v) + sigma(-v),
+ * in which Smith's masking needs no tangent and has no cancellation (v.z > 0):
+ *	sigma = (z + t)/2,   G1 = 2z/(z + t),   G2 = 2 z_o z_i/(z_i t_o + z_o t_i)   (height-correlated, one side) */
+#ifndef LOBE_MICROFACET_FACET_H
+#define LOBE_MICROFACET_FACET_H
+
+#include "../core/vec.h"
+
+typedef struct {
+	lobe_real inv, factor;
+} lobe_facet_density;
+
+/* G2/z_o, both directions above the surface: 2 z_i/(z_i t_o + z_o t_i). Heitz 2014, eq. 99. */
+LOBE_FN lobe_real lobe_smith_g2_over_cos(lobe_real z_o, lobe_real t_o, lobe_real z_i, lobe_real t_i)
+{
+	return (z_i + z_i) / lobe_fma(z_i, t_o, z_o * t_i);
+}
+
+#endif

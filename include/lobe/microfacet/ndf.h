@@ -1,0 +1,58 @@
+/* ndf.h - the distributions that production lobes are built from, chosen by a constant.
+ *
+ * Every call site passes LOBE_NDF_*, so that a compiler folds the choice: one source of each formula, no cost. What no
+ * lobe of a build uses is not compiled (config.h). Lobes that choose at run time, among more distributions, do so in
+ * distribution.h with the same numbers. */
+#ifndef LOBE_MICROFACET_NDF_H
+#define LOBE_MICROFACET_NDF_H
+
+#include "../config.h"
+#include "facet.h"
+#if LOBE_HAS_NDF_GGX
+#include "ggx.h"
+#endif
+#if LOBE_HAS_NDF_BECKMANN
+#include "beckmann.h"
+#endif
+
+enum { LOBE_NDF_GGX = 0, LOBE_NDF_BECKMANN = 1 };
+
+LOBE_FN lobe_facet_density lobe_ndf_density(lobe_uint ndf, lobe_vec3 h)
+{
+#if LOBE_HAS_NDF_BECKMANN
+	if (ndf == LOBE_NDF_BECKMANN)
+		return lobe_beckmann_density(h);
+#endif
+#if LOBE_HAS_NDF_GGX
+	(void)ndf;
+	return lobe_ggx_density(h);
+#endif
+}
+
+/* t(v) of facet.h. */
+LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
+{
+#if LOBE_HAS_NDF_BECKMANN
+	if (ndf == LOBE_NDF_BECKMANN)
+		return lobe_beckmann_t(v);
+#endif
+#if LOBE_HAS_NDF_GGX
+	(void)ndf;
+	return lobe_ggx_t(v);
+#endif
+}
+
+/* A normal visible from v, v.z > 0; t: lobe_ndf_t(ndf, v). */
+LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t, lobe_vec2 u)
+{
+#if LOBE_HAS_NDF_BECKMANN
+	if (ndf == LOBE_NDF_BECKMANN)
+		return lobe_beckmann_visible_above(v, t, u);
+#endif
+#if LOBE_HAS_NDF_GGX
+	(void)ndf;
+	return lobe_ggx_visible_above(v, t, u);
+#endif
+}
+
+#endif
