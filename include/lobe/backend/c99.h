@@ -27,6 +27,9 @@ typedef int32_t lobe_int;
 typedef uint64_t lobe_uint64;
 typedef int64_t lobe_int64;
 
+/* Word i of the table (core/table.h) at that address. */
+#define LOBE_FETCH_FLOAT(address, i) (((const float *)(uintptr_t)(address))[i])
+
 /* A row loop sets LOBE_FN to an always-inline form, since a loop with a call in it does not vectorise. */
 #ifndef LOBE_FN
 #define LOBE_FN static inline

@@ -16,6 +16,9 @@ typedef long lobe_int64;
 #define LOBE_R(x)     x##f
 #define LOBE_REAL_MAX 0x1.fffffep+127f
 
+/* Word i of the table (core/table.h) at that address. */
+#define LOBE_FETCH_FLOAT(address, i) (((__global const float *)(size_t)(address))[i])
+
 /* Where the compiler is clang for x86-64 (PoCL) a struct of floats would travel as <2 x float>, and what is not inlined
  * stays a call: either stops its loop vectoriser. */
 #ifndef LOBE_FN

@@ -24,6 +24,14 @@ typedef struct {
 	lobe_real inv, factor;
 } lobe_facet_density;
 
+LOBE_FN lobe_facet_density lobe_facet_density_none(void)
+{
+	lobe_facet_density d;
+	d.inv = LOBE_R(0.0);
+	d.factor = LOBE_R(0.0);
+	return d;
+}
+
 /* G2/z_o, both directions above the surface: 2 z_i/(z_i t_o + z_o t_i). Heitz 2014, eq. 99. */
 LOBE_FN lobe_real lobe_smith_g2_over_cos(lobe_real z_o, lobe_real t_o, lobe_real z_i, lobe_real t_i)
 {
