@@ -13,15 +13,6 @@
 #include "shape.h"
 #include "ggx.h"
 
-enum {
-#define LOBE_NDF_FIXED(NAME, name, number)  LOBE_NDF_##NAME = number,
-#define LOBE_NDF_SHAPED(NAME, name, number) LOBE_NDF_##NAME = number,
-#include "distributions.def"
-#undef LOBE_NDF_FIXED
-#undef LOBE_NDF_SHAPED
-	LOBE_NDF_LIMIT = 256
-};
-
 /* The surface of a distribution without a shape of its own: LOBE_NDF_GGX, LOBE_NDF_BECKMANN. */
 LOBE_FN lobe_distribution lobe_distribution_make(lobe_uint ndf)
 {

@@ -8,14 +8,13 @@
 
 #include "../config.h"
 #include "facet.h"
+#include "shape.h"
 #if LOBE_HAS_NDF_GGX
 #include "ggx.h"
 #endif
 #if LOBE_HAS_NDF_BECKMANN
 #include "beckmann.h"
 #endif
-
-enum { LOBE_NDF_GGX = 0, LOBE_NDF_BECKMANN = 1 };
 
 LOBE_FN lobe_facet_density lobe_ndf_density(lobe_uint ndf, lobe_vec3 h)
 {
