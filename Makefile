@@ -38,7 +38,9 @@ ROW_CFLAGS := $(LIB_CFLAGS) $(ROW_OPT) $(foreach f,-fno-thread-jumps -fschedule-
 SOURCES := $(wildcard src/*.c)
 HEADERS := Makefile $(wildcard include/lobe/*.h include/lobe/*/*.h include/lobe/*/*.def src/*.h)
 ROW_OBJECTS := $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(B)/obj/rows_$(i)_$(l).o))
-OBJECTS := $(patsubst src/%.c,$(B)/obj/%.o,$(filter-out src/rows.c,$(SOURCES))) $(ROW_OBJECTS) $(B)/obj/opencl_source.o
+SPLIT_OBJECTS := $(foreach i,$(ISAS),$(B)/obj/split_$(i).o)
+OBJECTS := $(patsubst src/%.c,$(B)/obj/%.o,$(filter-out src/rows.c src/split.c,$(SOURCES))) $(ROW_OBJECTS) $(SPLIT_OBJECTS) \
+	$(B)/obj/opencl_source.o
 
 all: $(B)/liblobe.a $(B)/liblobe.so $(B)/minimal $(B)/batch
 
@@ -55,6 +57,13 @@ $(B)/obj/rows_$(1)_$(2).o: src/rows.c $(HEADERS) | $(B)/obj
 	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) -c src/rows.c -o $$@
 endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))
+
+define SPLIT_RULE
+$(B)/obj/split_$(1).o: src/split.c src/split.h Makefile | $(B)/obj
+	@echo "  cc    $$@"
+	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/split.c -o $$@
+endef
+$(foreach i,$(ISAS),$(eval $(call SPLIT_RULE,$(i))))
 
 # The OpenCL source is the headers themselves, put into the library as text.
 $(B)/embed: cl/embed.c

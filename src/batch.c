@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "internal.h"
+#include "strides.h"
 
 /* --- devices ----------------------------------------------------------------------------------------------------- */
 
@@ -200,44 +201,19 @@ static lobe_status check_presence(const lobe_job *job, int sample, const char *c
 	return LOBE_OK;
 }
 
-static int overlap(const void *a, const void *b, size_t bytes)
-{
-	const uintptr_t x = (uintptr_t)a, y = (uintptr_t)b;
-	return x && y && (x < y ? y - x < bytes : x - y < bytes);
-}
-
-/* Host pointers aligned, outputs apart from everything else, material indices in range. */
+/* Arrays sound, material indices in range. */
 static lobe_status check_host(const lobe_scene *scene, const lobe_job *job, int sample, const char *call)
 {
-	const void *array[LOBE_IN_COUNT + LOBE_OUT_COUNT + 1];
-	const char *name[LOBE_IN_COUNT + LOBE_OUT_COUNT + 1];
-	const int count = LOBE_IN_COUNT + LOBE_OUT_COUNT + 1;
-	for (int i = 0; i < LOBE_OUT_COUNT; i++) {
-		array[i] = job->out[i];
-		name[i] = lobe_out_names[sample][i];
-	}
-	for (int i = 0; i < LOBE_IN_COUNT; i++) {
-		array[LOBE_OUT_COUNT + i] = job->in[i];
-		name[LOBE_OUT_COUNT + i] = lobe_in_names[sample][i];
-	}
-	array[count - 1] = job->material;
-	name[count - 1] = "material";
-	if (job->count > SIZE_MAX / 4)
-		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->count is %zu, too many for memory", call, job->count);
-	for (int i = 0; i < count; i++)
-		if ((uintptr_t)array[i] % 4)
-			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->%s = %p is not aligned to 4 bytes", call,
-					 name[i], array[i]);
-	for (int i = 0; i < LOBE_OUT_COUNT; i++)
-		for (int k = i + 1; k < count; k++)
-			if (overlap(array[i], array[k], job->count * 4))
-				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s overlaps batch->%s", call,
-						 name[i], name[k]);
-	const uint32_t *material = job->material;
-	for (size_t i = 0; material && i < job->count; i++)
-		if (material[i] >= scene->count)
+	const lobe_status status = lobe_check_arrays(job, sample, call);
+	if (status != LOBE_OK || !job->material)
+		return status;
+	const unsigned char *at = job->material;
+	for (size_t i = 0; i < job->count; i++, at += job->material_stride) {
+		const uint32_t material = *(const uint32_t *)(const void *)at;
+		if (material >= scene->count)
 			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->material[%zu] = %u, but the scene has %zu",
-					 call, i, material[i], scene->count);
+					 call, i, material, scene->count);
+	}
 	return LOBE_OK;
 }
 
@@ -281,6 +257,31 @@ static int sample_verb(const lobe_job *job)
 		(job).out[LOBE_OUT_EVENT] = (batch)->event;                                                            \
 	} while (0)
 
+/* The strides of a host batch. second: those of in[3..5]; out: by output. */
+static void fill_strides(lobe_job *job, const lobe_strides *stride, size_t second, const size_t *out)
+{
+	for (int i = 0; i < LOBE_IN_COUNT; i++) {
+		const size_t given = i < 3 ? stride->wo : second;
+		job->in_stride[i] = given ? given : 4;
+	}
+	for (int i = 0; i < LOBE_OUT_COUNT; i++)
+		job->out_stride[i] = out[i] ? out[i] : 4;
+	job->material_stride = stride->material ? stride->material : 4;
+}
+
+static void fill_eval_strides(lobe_job *job, const lobe_strides *s)
+{
+	const size_t out[LOBE_OUT_COUNT] = {s->f, s->f, s->f, s->pdf};
+	fill_strides(job, s, s->wi, out);
+}
+
+static void fill_sample_strides(lobe_job *job, const lobe_strides *s)
+{
+	const size_t out[LOBE_OUT_COUNT] = {s->sample_wi, s->sample_wi, s->sample_wi,  s->weight,
+					    s->weight,    s->weight,    s->sample_pdf, s->event};
+	fill_strides(job, s, s->u, out);
+}
+
 static lobe_status check_call(const void *scene, const void *batch, const char *call)
 {
 	if (!scene || !batch)
@@ -298,7 +299,7 @@ static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const 
 	if (status != LOBE_OK)
 		return status;
 	job->verb = sample ? sample_verb(job) : eval_verb(job);
-	return scene->device->ops->run(scene, job);
+	return scene->device->takes_strides ? scene->device->ops->run(scene, job) : lobe_run_packed(scene, job);
 }
 
 static lobe_status run_device(lobe_scene *scene, lobe_job *job, int sample, const char *call)
@@ -337,6 +338,7 @@ lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch)
 	if (status != LOBE_OK)
 		return status;
 	FILL_EVAL(job, batch);
+	fill_eval_strides(&job, &batch->stride);
 	return run_host(scene, &job, 0, "lobe_scene_eval");
 }
 
@@ -347,6 +349,7 @@ lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch)
 	if (status != LOBE_OK)
 		return status;
 	FILL_SAMPLE(job, batch);
+	fill_sample_strides(&job, &batch->stride);
 	return run_host(scene, &job, 1, "lobe_scene_sample");
 }
 

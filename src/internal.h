@@ -56,6 +56,7 @@ typedef struct {
 	const void *material;
 	const void *in[LOBE_IN_COUNT];
 	void *out[LOBE_OUT_COUNT];
+	size_t material_stride, in_stride[LOBE_IN_COUNT], out_stride[LOBE_OUT_COUNT]; /* bytes; 4: packed */
 } lobe_job;
 
 /* Whether a verb writes output k (LOBE_OUT_*), be it wanted or not. */
@@ -89,6 +90,7 @@ typedef struct {
 /* First member of each backend's own device struct. */
 struct lobe_device {
 	const lobe_device_ops *ops;
+	int takes_strides; /* 0: run gets packed arrays alone */
 	char name[256];
 };
 

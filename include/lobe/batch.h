@@ -77,9 +77,29 @@ LOBE_API lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, co
 /* Null does nothing. */
 LOBE_API void lobe_scene_destroy(lobe_scene *scene);
 
+/* Bytes from one element of an array to the next, multiples of 4. 0: the array is packed, 4 bytes apart. */
+typedef struct {
+	size_t material, wo, wi, u, f, pdf, sample_wi, weight, sample_pdf, event;
+} lobe_strides;
+
 /* A batch as structure of arrays, each of count elements, aligned as its element type is. An output that is NULL is not
  * wanted; the three components of a vector are wanted together or not at all. Inputs may be the same arrays as each
- * other; an output must not overlap any input or other output (LOBE_ERROR_ARGUMENT).
+ * other; no word of an output may be one of an input or of another output (LOBE_ERROR_ARGUMENT).
+ *
+ * Arrays of structs: point at the members of the first struct, and give the struct's size as stride. Nothing else in
+ * the structs is read or written, outputs may be members of the same structs as inputs, and a batch may have packed
+ * arrays beside them:
+ *
+ *	struct hit { lobe_vec3 wo; uint32_t material; lobe_vec3 u, wi; lobe_rgb weight; } *hit;
+ *	lobe_batch batch = {
+ *		.count = n, .material = &hit->material, .wo = {&hit->wo.x, &hit->wo.y, &hit->wo.z},
+ *		.u = {&hit->u.x, &hit->u.y, &hit->u.z}, .sample_wi = {&hit->wi.x, &hit->wi.y, &hit->wi.z},
+ *		.weight = {&hit->weight.r, &hit->weight.g, &hit->weight.b}, .event = event,
+ *		.stride = {.material = sizeof *hit, .wo = sizeof *hit, .u = sizeof *hit, .sample_wi = sizeof *hit,
+ *			   .weight = sizeof *hit}};
+ *
+ * A native device takes strided elements a block at a time through the first-level cache; an OpenCL device gets them
+ * packed by the host, part by part.
  *
  * count 0 is allowed and does nothing. Inputs of one element never affect another's result. */
 typedef struct {
@@ -89,6 +109,7 @@ typedef struct {
 	float *f[3], *pdf;                 /* eval */
 	float *sample_wi[3], *weight[3], *sample_pdf;
 	uint32_t *event; /* sample */
+	lobe_strides stride;
 } lobe_batch;
 
 /* f |cos theta_i| and the pdf, whichever is asked for. At least one of f and pdf must be. */

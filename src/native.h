@@ -1,0 +1,53 @@
+/* native.h - what the parts of the native backend share: native.c (devices, instruction sets, threads), native_chunk.c (one
+ * chunk of a batch on one thread), rows.c (the loops), split.c (mixed lobes). */
+#ifndef LOBE_NATIVE_H
+#define LOBE_NATIVE_H
+
+#include "rows.h"
+#include "split.h"
+
+/* The most elements of a chunk: their arrays stay in the second-level cache. */
+#define LOBE_NATIVE_CHUNK 8192
+/* Elements that go through a thread's own memory at a time where nothing is mixed: their arrays stay in the first-level
+ * cache. */
+#define LOBE_NATIVE_BLOCK 256
+/* The same where lobes are mixed: each gets a loop long enough to be worth its call. */
+#define LOBE_NATIVE_MIXED 2048
+/* Scenes of no more materials are split by material, others by lobe. */
+#define LOBE_NATIVE_KEYS 12
+
+/* scene->state: how elements are split. */
+typedef struct {
+	int single;     /* the only lobe, or -1 */
+	int by_material;
+	uint32_t keys;  /* [0, keys): materials, or lobes and LOBE_INDEX_NONE */
+} lobe_native_scene;
+
+/* A thread's own memory: elements of a block, packed; then those of one key. */
+typedef struct {
+	lobe_split_plan plan;
+	uint32_t material[LOBE_SPLIT_ROOM], key[LOBE_SPLIT_ROOM];
+	uint32_t slots[LOBE_SPLIT_ROOM], slot[LOBE_SPLIT_ROOM];
+	float packed_in[LOBE_IN_COUNT][LOBE_SPLIT_ROOM], in[LOBE_IN_COUNT][LOBE_SPLIT_ROOM];
+	float packed_out[LOBE_OUT_COUNT][LOBE_SPLIT_ROOM], out[LOBE_OUT_COUNT][LOBE_SPLIT_ROOM];
+	uint32_t packed_event[LOBE_SPLIT_ROOM], event[LOBE_SPLIT_ROOM];
+	unsigned char apart[64]; /* the next thread's is in other cache lines */
+} lobe_native_scratch;
+
+/* A batch on its way; chunk: elements of each chunk. */
+typedef struct {
+	const lobe_scene *scene;
+	const lobe_job *job;
+	const lobe_rows *const *rows;
+	const lobe_split *split;
+	lobe_native_scratch *scratch; /* [threads] */
+	size_t chunk;
+} lobe_native_job;
+
+/* A lobe_pool_work; context: a lobe_native_job. */
+void lobe_native_chunk(void *context, size_t chunk, size_t thread);
+
+lobe_status lobe_native_scene_create(lobe_scene *scene);
+void lobe_native_scene_destroy(lobe_scene *scene);
+
+#endif
