@@ -59,7 +59,7 @@ endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))
 
 define SPLIT_RULE
-$(B)/obj/split_$(1).o: src/split.c src/split.h Makefile | $(B)/obj
+$(B)/obj/split_$(1).o: src/split.c $(HEADERS) | $(B)/obj
 	@echo "  cc    $$@"
 	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/split.c -o $$@
 endef

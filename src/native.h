@@ -11,26 +11,23 @@
 /* Elements that go through a thread's own memory at a time where nothing is mixed: their arrays stay in the first-level
  * cache. */
 #define LOBE_NATIVE_BLOCK 256
-/* The same where lobes are mixed: each gets a loop long enough to be worth its call. */
-#define LOBE_NATIVE_MIXED 2048
-/* Scenes of no more materials are split by material, others by lobe. */
-#define LOBE_NATIVE_KEYS 12
 
-/* scene->state: how elements are split. */
+/* scene->state: the key by which elements are split, materials of a lobe side by side, or lobes. */
 typedef struct {
-	int single;     /* the only lobe, or -1 */
+	int single; /* the only lobe, or -1 */
 	int by_material;
-	uint32_t keys;  /* [0, keys): materials, or lobes and LOBE_INDEX_NONE */
+	uint32_t keys;
+	uint32_t first_key[LOBE_COUNT + 2]; /* lobe L has the keys [first_key[L], first_key[L + 1]) */
+	uint32_t key[];                     /* of each material */
 } lobe_native_scene;
 
-/* A thread's own memory: elements of a block, packed; then those of one key. */
+/* A thread's own memory: elements of a block, packed; and sorted by key. */
 typedef struct {
-	lobe_split_plan plan;
-	uint32_t material[LOBE_SPLIT_ROOM], key[LOBE_SPLIT_ROOM];
-	uint32_t slots[LOBE_SPLIT_ROOM], slot[LOBE_SPLIT_ROOM];
-	float packed_in[LOBE_IN_COUNT][LOBE_SPLIT_ROOM], in[LOBE_IN_COUNT][LOBE_SPLIT_ROOM];
-	float packed_out[LOBE_OUT_COUNT][LOBE_SPLIT_ROOM], out[LOBE_OUT_COUNT][LOBE_SPLIT_ROOM];
-	uint32_t packed_event[LOBE_SPLIT_ROOM], event[LOBE_SPLIT_ROOM];
+	uint32_t material[LOBE_SPLIT_MAX], slots[LOBE_SPLIT_MAX], place[LOBE_SPLIT_MAX];
+	uint32_t slot[LOBE_SPLIT_ROOM];
+	float packed_in[LOBE_IN_COUNT][LOBE_SPLIT_MAX], in[LOBE_IN_COUNT][LOBE_SPLIT_ROOM];
+	float packed_out[LOBE_OUT_COUNT][LOBE_SPLIT_MAX], out[LOBE_OUT_COUNT][LOBE_SPLIT_ROOM];
+	uint32_t packed_event[LOBE_SPLIT_MAX], event[LOBE_SPLIT_ROOM];
 	unsigned char apart[64]; /* the next thread's is in other cache lines */
 } lobe_native_scratch;
 

@@ -6,21 +6,28 @@
 #include "native.h"
 #include "strides.h"
 
-enum { VECTOR = 16 /* elements of the longest */ };
-
 /* --- scenes ------------------------------------------------------------------------------------------------------ */
 
 lobe_status lobe_native_scene_create(lobe_scene *scene)
 {
-	lobe_native_scene *const state = calloc(1, sizeof *state);
+	const int by_material = scene->count <= LOBE_SPLIT_MATERIALS;
+	lobe_native_scene *const state = calloc(1, sizeof *state + scene->count * sizeof *state->key);
 	if (!state)
 		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_scene_create: out of memory");
 	state->single = -1;
-	for (int lobe = 0; lobe < LOBE_COUNT; lobe++)
-		if (scene->table[lobe].count == scene->count)
+	state->by_material = by_material;
+	for (int lobe = 0; lobe <= LOBE_COUNT; lobe++) {
+		/* Materials without a lobe are all the same. */
+		const size_t n = by_material && lobe < LOBE_COUNT ? scene->table[lobe].count : 1;
+		state->first_key[lobe + 1] = state->first_key[lobe] + (uint32_t)n;
+		if (lobe < LOBE_COUNT && scene->table[lobe].count == scene->count)
 			state->single = lobe;
-	state->by_material = scene->count <= LOBE_NATIVE_KEYS;
-	state->keys = state->by_material ? (uint32_t)scene->count : LOBE_COUNT + 1;
+	}
+	state->keys = state->first_key[LOBE_COUNT + 1];
+	for (size_t i = 0; i < scene->count; i++) {
+		const uint32_t lobe = scene->index[i];
+		state->key[i] = state->first_key[lobe] + (by_material && lobe < LOBE_COUNT ? scene->slot[i] : 0);
+	}
 	scene->state = state;
 	/* Its parameters and tables serve as they are. */
 	lobe_tables_rebase(scene, (uint64_t)(uintptr_t)scene->tables);
@@ -64,7 +71,7 @@ static int all_wanted(const lobe_job *job)
 	return yes;
 }
 
-/* The loop of a lobe. slot: of each element, or NULL: all have place. */
+/* The loop of a lobe. slot: of each element, or NULL: all are at that place of its table. */
 static void run_row(const lobe_native_job *j, int lobe, const uint32_t *slot, size_t place, size_t n,
 		    const float *const *in, void *const *out)
 {
@@ -76,7 +83,8 @@ static void run_row(const lobe_native_job *j, int lobe, const uint32_t *slot, si
 	if (differs)
 		j->rows[lobe]->verb[verb].many(table, slot, n, in, out);
 	else
-		j->rows[lobe]->verb[verb].one(table + (slot ? slot[0] : place) * lobe_param_size[lobe], slot, n, in, out);
+		j->rows[lobe]->verb[verb].one(table + (slot ? slot[0] : place) * lobe_param_size[lobe], slot, n, in,
+					      out);
 }
 
 /* A block of one lobe. */
@@ -91,57 +99,60 @@ static void shade_one(const lobe_native_job *j, lobe_native_scratch *s, int lobe
 	run_row(j, lobe, b->material ? s->slot : NULL, j->scene->slot[0], b->n, b->in, out);
 }
 
-/* A block of several. */
+/* Elements of one key, at [at, at + n) of the thread's own memory. */
+static void shade_key(const lobe_native_job *j, lobe_native_scratch *s, int lobe, uint32_t key, size_t at, size_t n)
+{
+	const lobe_native_scene *const state = j->scene->state;
+	const int sample = lobe_verb_is_sample(j->job->verb);
+	const float *in[LOBE_IN_COUNT];
+	void *out[LOBE_OUT_COUNT];
+	for (int k = 0; k < LOBE_IN_COUNT; k++)
+		in[k] = s->in[k] + at;
+	for (int k = 0; k < LOBE_OUT_COUNT; k++)
+		out[k] = word_at(room(s, k, sample), 4, at);
+	if (lobe == LOBE_INDEX_NONE) {
+		for (int k = 0; k < LOBE_OUT_COUNT; k++)
+			memset(out[k], 0, 4 * n);
+		return;
+	}
+	/* Whole vectors: what is behind the last element is ours, and nobody reads what comes of it. */
+	uint32_t *const slot = state->by_material ? NULL : s->slot + at;
+	const size_t all = (n + LOBE_SPLIT_VECTOR - 1) / LOBE_SPLIT_VECTOR * LOBE_SPLIT_VECTOR;
+	for (size_t i = n; slot && i < all; i++)
+		slot[i] = slot[0];
+	run_row(j, lobe, slot, key - state->first_key[lobe], all, in, out);
+}
+
+/* A block of several lobes. */
 static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const block *b)
 {
-	const lobe_scene *const scene = j->scene;
-	const lobe_native_scene *const state = scene->state;
+	const lobe_native_scene *const state = j->scene->state;
 	const int sample = lobe_verb_is_sample(j->job->verb);
-	const uint32_t *key = b->material;
 	const void *from[LOBE_IN_COUNT + 1], *results[LOBE_OUT_COUNT];
-	void *to[LOBE_IN_COUNT + 1], *out[LOBE_OUT_COUNT], *wanted[LOBE_OUT_COUNT];
-	int inputs = 0, outputs = 0;
+	void *to[LOBE_IN_COUNT + 1], *wanted[LOBE_OUT_COUNT];
+	uint32_t begin[LOBE_SPLIT_KEYS], count[LOBE_SPLIT_KEYS];
+	int inputs = LOBE_IN_COUNT, outputs = 0;
+	j->split->sort(s->place, begin, count, state->key, state->keys, b->material, b->n);
 	for (int k = 0; k < LOBE_IN_COUNT; k++) {
-		from[inputs] = b->in[k];
-		to[inputs++] = s->in[k];
-	}
-	for (int k = 0; k < LOBE_OUT_COUNT; k++) {
-		out[k] = room(s, k, sample);
-		if (b->out[k] && lobe_verb_writes(j->job->verb, k)) {
-			results[outputs] = out[k];
-			wanted[outputs++] = b->out[k];
-		}
+		from[k] = b->in[k];
+		to[k] = s->in[k];
 	}
 	if (!state->by_material) {
-		j->split->look_up(s->key, scene->index, b->material, b->n);
-		j->split->look_up(s->slots, scene->slot, b->material, b->n);
-		key = s->key;
+		j->split->look_up(s->slots, j->scene->slot, b->material, b->n);
 		from[inputs] = s->slots;
 		to[inputs++] = s->slot;
 	}
-	for (uint32_t k = 0; k < state->keys; k++) {
-		const int lobe = state->by_material ? (int)scene->index[k] : (int)k;
-		size_t n = !state->by_material && lobe < LOBE_COUNT && scene->table[lobe].count == 0
-				   ? 0
-				   : j->split->plan(&s->plan, key, k, b->n);
-		const size_t count = n;
-		if (count == 0)
-			continue;
-		if (lobe == LOBE_INDEX_NONE) {
-			for (int i = 0; i < outputs; i++)
-				memset((void *)(uintptr_t)results[i], 0, 4 * count);
-		} else {
-			const float *in[LOBE_IN_COUNT];
-			for (int i = 0; i < LOBE_IN_COUNT; i++)
-				in[i] = s->in[i];
-			j->split->compress(to, from, inputs, &s->plan, b->n, count);
-			/* Whole vectors: what is behind the last element is there, and nobody reads what comes of it. */
-			for (; n % VECTOR; n++)
-				s->slot[n] = s->slot[0];
-			run_row(j, lobe, state->by_material ? NULL : s->slot, scene->slot[k < scene->count ? k : 0], n, in, out);
+	j->split->part(to, from, inputs, s->place, b->n);
+	for (int lobe = 0; lobe <= LOBE_COUNT; lobe++)
+		for (uint32_t k = state->first_key[lobe]; k < state->first_key[lobe + 1]; k++)
+			if (count[k])
+				shade_key(j, s, lobe, k, begin[k], count[k]);
+	for (int k = 0; k < LOBE_OUT_COUNT; k++)
+		if (b->out[k]) {
+			results[outputs] = room(s, k, sample);
+			wanted[outputs++] = b->out[k];
 		}
-		j->split->expand(wanted, results, outputs, &s->plan, b->n, count);
-	}
+	j->split->join(wanted, results, outputs, s->place, b->n);
 }
 
 /* --- chunks ------------------------------------------------------------------------------------------------------ */
@@ -190,7 +201,7 @@ static size_t block_size(const lobe_native_job *j, int whole)
 	const lobe_job *const job = j->job;
 	int apart = job->material && (job->material_stride != 4 || j->scene->count > 1);
 	if (whole < 0)
-		return LOBE_NATIVE_MIXED;
+		return LOBE_SPLIT_MAX;
 	for (int k = 0; k < LOBE_IN_COUNT; k++)
 		apart |= job->in_stride[k] != 4;
 	for (int k = 0; k < LOBE_OUT_COUNT; k++)

@@ -1,9 +1,10 @@
-/* split.c - bringing together the elements of one key (split.h), for one instruction set: compiled once for each, with
+/* split.c - sorting the elements of a block by key (split.h), for one instruction set: compiled once for each, with
  *	LOBE_ROW_ISA  the instruction set, a suffix, e.g. avx2
- * and that instruction set's compiler options. Gathering and scattering word by word would cost more than most shading
- * does; processors that can permute a vector bring the elements together whole vectors at a time. */
-#include <string.h>
-
+ * and that instruction set's compiler options.
+ *
+ * Both ways the caller's arrays are walked through in order, which the processor foresees, and what is at random stays in
+ * the cache. Three arrays share a pass, and a load of the place. That is bound by a store a cycle; packing vectors by
+ * key (AVX-512's compress, or permutations) was slower from three keys on, since its stores straddle cache lines. */
 #include "split.h"
 
 #define PASTE_(a, b) a##b
@@ -17,170 +18,125 @@ static void look_up(uint32_t *restrict to, const uint32_t *restrict table, const
 		to[i] = table[index[i]];
 }
 
-#if defined(__AVX512F__)
+/* --- places ------------------------------------------------------------------------------------------------------ */
+
+static void find_begins(uint32_t *restrict begin, const uint32_t *restrict count, uint32_t keys)
+{
+	uint32_t at = 0;
+	for (uint32_t k = 0; k < keys; k++) {
+		begin[k] = at;
+		at += (count[k] + LOBE_SPLIT_VECTOR - 1) / LOBE_SPLIT_VECTOR * LOBE_SPLIT_VECTOR;
+	}
+}
+
+static void sort_counting(uint32_t *restrict place, uint32_t *restrict begin, uint32_t *restrict count,
+			  const uint32_t *restrict key, uint32_t keys, const uint32_t *restrict material, size_t n)
+{
+	uint32_t next[LOBE_SPLIT_KEYS];
+	memset(count, 0, keys * sizeof *count);
+	for (size_t i = 0; i < n; i++)
+		count[key[material[i]]]++;
+	find_begins(begin, count, keys);
+	memcpy(next, begin, keys * sizeof *next);
+	for (size_t i = 0; i < n; i++)
+		place[i] = next[key[material[i]]]++;
+}
+
+#ifdef __AVX512F__
 
 #include <immintrin.h>
 
-static __mmask16 mask_at(const lobe_split_plan *p, size_t i)
+/* With few keys: a vector of elements at a time, key by key, instead of a chain of counters in memory. */
+static void sort(uint32_t *restrict place, uint32_t *restrict begin, uint32_t *restrict count,
+		 const uint32_t *restrict key, uint32_t keys, const uint32_t *restrict material, size_t n)
 {
-	unsigned short m;
-	memcpy(&m, p->bits + i / 8, 2);
-	return m;
-}
-
-/* Those of a vector of 16 at i that are before n. */
-static __mmask16 before(size_t i, size_t n) { return n - i < 16 ? (__mmask16)((1u << (n - i)) - 1) : (__mmask16)0xffff; }
-
-static size_t plan(lobe_split_plan *p, const uint32_t *key, uint32_t k, size_t n)
-{
-	const __m512i wanted = _mm512_set1_epi32((int)k);
-	size_t count = 0;
-	for (size_t i = 0; i < n; i += 16) {
-		const __mmask16 there = before(i, n);
-		const __mmask16 m = _mm512_mask_cmpeq_epi32_mask(there, _mm512_maskz_loadu_epi32(there, key + i), wanted);
-		memcpy(p->bits + i / 8, &m, 2);
-		count += (size_t)__builtin_popcount(m);
+	const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+	__m512i vector[LOBE_SPLIT_MAX / 16];
+	uint32_t next[LOBE_SPLIT_KEYS];
+	if (keys > 10) {
+		sort_counting(place, begin, count, key, keys, material, n);
+		return;
 	}
-	return count;
-}
-
-/* To a register first: Zen 4 takes a hundred cycles to pack into memory. */
-static void compress(void *const *to, const void *const *from, int arrays, const lobe_split_plan *p, size_t n,
-		     size_t count)
-{
-	size_t at = 0;
-	(void)count;
+	look_up(place, key, material, n);
+	memset(count, 0, keys * sizeof *count);
 	for (size_t i = 0; i < n; i += 16) {
-		const __mmask16 m = mask_at(p, i), there = before(i, n);
-		for (int a = 0; a < arrays; a++) {
-			const __m512i v = _mm512_maskz_loadu_epi32(there, (const word *)from[a] + i);
-			_mm512_storeu_si512((word *)to[a] + at, _mm512_maskz_compress_epi32(m, v));
-		}
-		at += (size_t)__builtin_popcount(m);
+		const __mmask16 there = (__mmask16)(n - i < 16 ? (1u << (n - i)) - 1 : 0xffff);
+		const __m512i v = _mm512_mask_loadu_epi32(_mm512_set1_epi32(-1), there, place + i);
+		vector[i / 16] = v;
+		for (uint32_t k = 0; k < keys; k++)
+			count[k] += (uint32_t)__builtin_popcount(_mm512_cmpeq_epi32_mask(v, _mm512_set1_epi32((int)k)));
 	}
-}
-
-static void expand(void *const *to, const void *const *from, int arrays, const lobe_split_plan *p, size_t n,
-		   size_t count)
-{
-	size_t at = 0;
-	(void)count;
+	find_begins(begin, count, keys);
+	memcpy(next, begin, keys * sizeof *next);
 	for (size_t i = 0; i < n; i += 16) {
-		const __mmask16 m = mask_at(p, i);
-		for (int a = 0; a < arrays; a++) {
-			const __m512i v = _mm512_loadu_si512((const word *)from[a] + at);
-			_mm512_mask_storeu_epi32((word *)to[a] + i, m, _mm512_maskz_expand_epi32(m, v));
+		const __m512i v = vector[i / 16];
+		__m512i places = v;
+		for (uint32_t k = 0; k < keys; k++) {
+			const __mmask16 m = _mm512_cmpeq_epi32_mask(v, _mm512_set1_epi32((int)k));
+			const __m512i from = _mm512_add_epi32(lane, _mm512_set1_epi32((int)next[k]));
+			places = _mm512_mask_expand_epi32(places, m, from);
+			next[k] += (uint32_t)__builtin_popcount(m);
 		}
-		at += (size_t)__builtin_popcount(m);
+		_mm512_mask_storeu_epi32(place + i, (__mmask16)(n - i < 16 ? (1u << (n - i)) - 1 : 0xffff), places);
 	}
 }
 
 #else
+#define sort sort_counting
+#endif
 
-/* By list. */
-static void expand(void *const *to, const void *const *from, int arrays, const lobe_split_plan *p, size_t n,
-		   size_t count)
+/* --- movement ---------------------------------------------------------------------------------------------------- */
+
+static void part_3(word *restrict x, word *restrict y, word *restrict z, const word *restrict fx,
+		   const word *restrict fy, const word *restrict fz, const uint32_t *restrict place, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		const size_t to = place[i];
+		x[to] = fx[i];
+		y[to] = fy[i];
+		z[to] = fz[i];
+	}
+}
+
+static void part_1(word *restrict x, const word *restrict fx, const uint32_t *restrict place, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		x[place[i]] = fx[i];
+}
+
+static void join_3(word *restrict x, word *restrict y, word *restrict z, const word *restrict fx,
+		   const word *restrict fy, const word *restrict fz, const uint32_t *restrict place, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		const size_t from = place[i];
+		x[i] = fx[from];
+		y[i] = fy[from];
+		z[i] = fz[from];
+	}
+}
+
+static void join_1(word *restrict x, const word *restrict fx, const uint32_t *restrict place, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		x[i] = fx[place[i]];
+}
+
+static void part(void *const *to, const void *const *from, int arrays, const uint32_t *place, size_t n)
 {
 	int a = 0;
-	(void)n;
-	/* By twos: each pass over the list is a load for every element. */
-	for (; a + 2 <= arrays; a += 2) {
-		word *const t0 = to[a], *const t1 = to[a + 1];
-		const word *const f0 = from[a], *const f1 = from[a + 1];
-		for (size_t i = 0; i < count; i++) {
-			const size_t e = p->list[i];
-			t0[e] = f0[i];
-			t1[e] = f1[i];
-		}
-	}
+	for (; a + 3 <= arrays; a += 3)
+		part_3(to[a], to[a + 1], to[a + 2], from[a], from[a + 1], from[a + 2], place, n);
 	for (; a < arrays; a++)
-		for (size_t i = 0; i < count; i++)
-			((word *)to[a])[p->list[i]] = ((const word *)from[a])[i];
+		part_1(to[a], from[a], place, n);
 }
 
-#if defined(__AVX2__)
-
-#include <immintrin.h>
-
-/* For each set of lanes, which of them goes to lane 0, 1, ...: 4 bits each. */
-#define HAS(m, k)    ((m) >> (k)&1u)
-#define BELOW(m, k)                                                                                                    \
-	(((k) > 0) * HAS(m, 0) + ((k) > 1) * HAS(m, 1) + ((k) > 2) * HAS(m, 2) + ((k) > 3) * HAS(m, 3) +               \
-	 ((k) > 4) * HAS(m, 4) + ((k) > 5) * HAS(m, 5) + ((k) > 6) * HAS(m, 6))
-#define LANE(m, k)   (HAS(m, k) * (k##u << 4 * BELOW(m, k)))
-#define PACKED(m)    (LANE(m, 1) | LANE(m, 2) | LANE(m, 3) | LANE(m, 4) | LANE(m, 5) | LANE(m, 6) | LANE(m, 7))
-#define PACKED_4(m)  PACKED(m), PACKED((m) + 1), PACKED((m) + 2), PACKED((m) + 3)
-#define PACKED_16(m) PACKED_4(m), PACKED_4((m) + 4), PACKED_4((m) + 8), PACKED_4((m) + 12)
-#define PACKED_64(m) PACKED_16(m), PACKED_16((m) + 16), PACKED_16((m) + 32), PACKED_16((m) + 48)
-static const uint32_t packed[256] = {PACKED_64(0u), PACKED_64(64u), PACKED_64(128u), PACKED_64(192u)};
-
-static __m256i load(const void *p) { return _mm256_loadu_si256((const __m256i *)p); }
-
-/* Lanes of a vector that a set of them moves to its front. */
-static __m256i front(unsigned set)
+static void join(void *const *to, const void *const *from, int arrays, const uint32_t *place, size_t n)
 {
-	const __m256i shift = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
-	return _mm256_srlv_epi32(_mm256_set1_epi32((int)packed[set]), shift);
+	int a = 0;
+	for (; a + 3 <= arrays; a += 3)
+		join_3(to[a], to[a + 1], to[a + 2], from[a], from[a + 1], from[a + 2], place, n);
+	for (; a < arrays; a++)
+		join_1(to[a], from[a], place, n);
 }
 
-static size_t plan(lobe_split_plan *p, const uint32_t *key, uint32_t k, size_t n)
-{
-	const __m256i wanted = _mm256_set1_epi32((int)k), first = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-	size_t count = 0, i = 0;
-	for (; i + 8 <= n; i += 8) {
-		const __m256i same = _mm256_cmpeq_epi32(load(key + i), wanted);
-		const unsigned m = (unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(same));
-		const __m256i e = _mm256_add_epi32(_mm256_set1_epi32((int)i), first);
-		p->bits[i / 8] = (unsigned char)m;
-		_mm256_storeu_si256((__m256i *)(void *)(p->list + count), _mm256_permutevar8x32_epi32(e, front(m)));
-		count += (size_t)__builtin_popcount(m);
-	}
-	for (; i < n; i++) {
-		p->list[count] = (uint32_t)i;
-		count += key[i] == k;
-	}
-	return count;
-}
-
-static void compress(void *const *to, const void *const *from, int arrays, const lobe_split_plan *p, size_t n,
-		     size_t count)
-{
-	size_t at = 0;
-	for (size_t i = 0; i + 8 <= n; i += 8) {
-		const unsigned m = p->bits[i / 8];
-		const __m256i lanes = front(m);
-		for (int a = 0; a < arrays; a++)
-			_mm256_storeu_si256((__m256i *)(void *)((word *)to[a] + at),
-					    _mm256_permutevar8x32_epi32(load((const word *)from[a] + i), lanes));
-		at += (size_t)__builtin_popcount(m);
-	}
-	for (; at < count; at++)
-		for (int a = 0; a < arrays; a++)
-			((word *)to[a])[at] = ((const word *)from[a])[p->list[at]];
-}
-
-#else
-
-static size_t plan(lobe_split_plan *p, const uint32_t *key, uint32_t k, size_t n)
-{
-	size_t count = 0;
-	for (size_t i = 0; i < n; i++) {
-		p->list[count] = (uint32_t)i;
-		count += key[i] == k;
-	}
-	return count;
-}
-
-static void compress(void *const *to, const void *const *from, int arrays, const lobe_split_plan *p, size_t n,
-		     size_t count)
-{
-	(void)n;
-	for (int a = 0; a < arrays; a++)
-		for (size_t i = 0; i < count; i++)
-			((word *)to[a])[i] = ((const word *)from[a])[p->list[i]];
-}
-
-#endif
-#endif
-
-const lobe_split PASTE(lobe_split_, LOBE_ROW_ISA) = {look_up, plan, compress, expand};
+const lobe_split PASTE(lobe_split_, LOBE_ROW_ISA) = {look_up, sort, part, join};

@@ -1,32 +1,31 @@
-/* split.h - the elements of a block that have a certain key, brought together and put back: data movement alone, so every
- * instruction set gives the same bits. split.c is compiled once for each, like the row loops. */
+/* split.h - the elements of a block brought together by key, and put back: data movement alone, so every instruction set
+ * gives the same bits. split.c is compiled once for each, like the row loops. */
 #ifndef LOBE_SPLIT_H
 #define LOBE_SPLIT_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "internal.h"
 
-/* Elements of a block, at most; words behind the last that compress writes and expand reads, to no effect. */
-enum { LOBE_SPLIT_MAX = 2048, LOBE_SPLIT_SLACK = 16, LOBE_SPLIT_ROOM = LOBE_SPLIT_MAX + LOBE_SPLIT_SLACK };
+enum {
+	LOBE_SPLIT_MAX = 2048,  /* elements of a block */
+	LOBE_SPLIT_VECTOR = 16, /* each key's elements begin at a multiple of this */
+	/* Scenes of no more materials are split by material, so that their parameters are constants of the loops; others
+	 * by lobe. */
+	LOBE_SPLIT_MATERIALS = 32,
+	LOBE_SPLIT_KEYS = (LOBE_COUNT > LOBE_SPLIT_MATERIALS ? (int)LOBE_COUNT : (int)LOBE_SPLIT_MATERIALS) + 1,
+	LOBE_SPLIT_ROOM = LOBE_SPLIT_MAX + LOBE_SPLIT_KEYS * LOBE_SPLIT_VECTOR
+};
 
-/* Which elements of a block have the key: a list, or a bit for each, or both. */
-typedef struct {
-	uint32_t list[LOBE_SPLIT_ROOM];
-	unsigned char bits[LOBE_SPLIT_MAX / 8];
-} lobe_split_plan;
-
-/* Words of 4 bytes, of whatever type. */
 typedef struct {
 	/* to[i] = table[index[i]] */
 	void (*look_up)(uint32_t *to, const uint32_t *table, const uint32_t *index, size_t n);
-	/* Finds the elements of key[0..n) that are k; how many. */
-	size_t (*plan)(lobe_split_plan *plan, const uint32_t *key, uint32_t k, size_t n);
-	/* For each of so many arrays: those elements of from[a][0..n), one after another. */
-	void (*compress)(void *const *to, const void *const *from, int arrays, const lobe_split_plan *plan, size_t n,
-			 size_t count);
-	/* The reverse: others of to[a][0..n) stay as they are. */
-	void (*expand)(void *const *to, const void *const *from, int arrays, const lobe_split_plan *plan, size_t n,
-		       size_t count);
+	/* The place of each element when they are sorted by key[material[i]], below keys. Those of key k are at
+	 * [begin[k], begin[k] + count[k]). */
+	void (*sort)(uint32_t *place, uint32_t *begin, uint32_t *count, const uint32_t *key, uint32_t keys,
+		     const uint32_t *material, size_t n);
+	/* For each of so many arrays of 4-byte words: to[a][place[i]] = from[a][i]. */
+	void (*part)(void *const *to, const void *const *from, int arrays, const uint32_t *place, size_t n);
+	/* to[a][i] = from[a][place[i]] */
+	void (*join)(void *const *to, const void *const *from, int arrays, const uint32_t *place, size_t n);
 } lobe_split;
 
 #endif
