@@ -35,12 +35,36 @@ ROW_OPT ?= -O3
 ROW_CFLAGS := $(LIB_CFLAGS) $(ROW_OPT) $(foreach f,-fno-thread-jumps -fschedule-insns -fsched-pressure,\
 	$(shell $(CC) -Werror $(f) -E -x c /dev/null >/dev/null 2>&1 && echo $(f)))
 
-SOURCES := $(wildcard src/*.c)
 HEADERS := Makefile $(wildcard include/lobe/*.h include/lobe/*/*.h include/lobe/*/*.def src/*.h)
-ROW_OBJECTS := $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(B)/obj/rows_$(i)_$(l).o))
-SPLIT_OBJECTS := $(foreach i,$(ISAS),$(B)/obj/split_$(i).o)
-OBJECTS := $(patsubst src/%.c,$(B)/obj/%.o,$(filter-out src/rows.c src/split.c,$(SOURCES))) $(ROW_OBJECTS) $(SPLIT_OBJECTS) \
-	$(B)/obj/opencl_source.o
+
+# Backends in the library: make LOBE_OPENCL=0 or LOBE_NATIVE=0 leaves one out, and a few lines that say so take its place.
+LOBE_OPENCL ?= 1
+LOBE_NATIVE ?= 1
+# Whose objects depend on nothing that such builds differ in, so that they can share them.
+ROW_DIR ?= $(B)/obj
+
+NATIVE_SOURCES := $(wildcard src/native*.c src/pool.c)
+OPENCL_SOURCES := $(wildcard src/opencl*.c)
+NONE_SOURCES := src/native_none.c src/opencl_none.c
+LOOP_SOURCES := src/rows.c src/split.c
+SOURCES := $(filter-out $(NATIVE_SOURCES) $(OPENCL_SOURCES) $(LOOP_SOURCES),$(wildcard src/*.c))
+ROW_OBJECTS := $(foreach i,$(ISAS),$(ROW_DIR)/split_$(i).o $(foreach l,$(LOBES),$(ROW_DIR)/rows_$(i)_$(l).o))
+ifeq ($(LOBE_NATIVE),0)
+SOURCES += src/native_none.c
+else
+SOURCES += $(filter-out $(NONE_SOURCES),$(NATIVE_SOURCES))
+LOOPS := $(ROW_OBJECTS)
+endif
+ifeq ($(LOBE_OPENCL),0)
+SOURCES += src/opencl_none.c
+else
+SOURCES += $(filter-out $(NONE_SOURCES),$(OPENCL_SOURCES))
+OPENCL_TEXT := $(B)/obj/opencl_source.o
+endif
+ifeq ($(LOBE_NATIVE)$(LOBE_OPENCL),00)
+$(error LOBE_NATIVE=0 LOBE_OPENCL=0 leaves no backend)
+endif
+OBJECTS := $(patsubst src/%.c,$(B)/obj/%.o,$(SOURCES)) $(LOOPS) $(OPENCL_TEXT)
 
 all: $(B)/liblobe.a $(B)/liblobe.so $(B)/minimal $(B)/batch
 
@@ -52,14 +76,14 @@ $(B)/obj/%.o: src/%.c $(HEADERS) | $(B)/obj
 	$(Q)$(CC) $(LIB_CFLAGS) -c $< -o $@
 
 define ROW_RULE
-$(B)/obj/rows_$(1)_$(2).o: src/rows.c $(HEADERS) | $(B)/obj
+$(ROW_DIR)/rows_$(1)_$(2).o: src/rows.c $(HEADERS) | $(B)/obj
 	@echo "  cc    $$@"
 	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) -c src/rows.c -o $$@
 endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))
 
 define SPLIT_RULE
-$(B)/obj/split_$(1).o: src/split.c $(HEADERS) | $(B)/obj
+$(ROW_DIR)/split_$(1).o: src/split.c $(HEADERS) | $(B)/obj
 	@echo "  cc    $$@"
 	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/split.c -o $$@
 endef
@@ -81,14 +105,19 @@ $(B)/obj/opencl_source.o: $(B)/gen/opencl_source.c | $(B)/obj
 	@echo "  cc    $@"
 	$(Q)$(CC) $(LIB_CFLAGS) -c $< -o $@
 
-$(B)/liblobe.a: $(OBJECTS)
+# Changes when the list of objects does, so that a library of other backends is linked anew.
+$(B)/obj/list: FORCE | $(B)/obj
+	@echo '$(OBJECTS)' | cmp -s - $@ || echo '$(OBJECTS)' > $@
+FORCE:
+
+$(B)/liblobe.a: $(OBJECTS) $(B)/obj/list
 	@rm -f $@
 	@echo "  ar    $@"
-	$(Q)$(AR) rcs $@ $^
+	$(Q)$(AR) rcs $@ $(OBJECTS)
 
-$(B)/liblobe.so: $(OBJECTS)
+$(B)/liblobe.so: $(OBJECTS) $(B)/obj/list
 	@echo "  link  $@"
-	$(Q)$(CC) $(CFLAGS) -shared -Wl,-soname,liblobe.so.0 $^ $(LIBS) -o $@
+	$(Q)$(CC) $(CFLAGS) -shared -Wl,-soname,liblobe.so.0 $(OBJECTS) $(LIBS) -o $@
 
 # --- examples ---------------------------------------------------------------------------------------------------------
 
@@ -229,9 +258,10 @@ help:
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \
 		'make install    PREFIX=/usr/local DESTDIR=' \
+		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: all run test test-long vectors bench check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)

@@ -11,10 +11,8 @@ lobe_status lobe_device_count(const char *backend, size_t *count)
 {
 	if (!backend || !count)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_count: %s is NULL", backend ? "count" : "backend");
-	if (strcmp(backend, "native") == 0) {
-		*count = 1;
-		return LOBE_OK;
-	}
+	if (strcmp(backend, "native") == 0)
+		return lobe_native_count(count);
 	if (strcmp(backend, "opencl") == 0)
 		return lobe_opencl_count(count);
 	return lobe_fail(LOBE_ERROR_DEVICE, "lobe_device_count: no backend \"%s\"; there are \"native\" and \"opencl\"",

@@ -148,7 +148,9 @@ void lobe_tables_rebase(lobe_scene *scene, uint64_t base);
 /* Whether the table of materials[i], if it has one, begins with its own length. (tables.c) */
 lobe_status lobe_check_table(const lobe_bsdf *materials, size_t i);
 
-/* Backends. lobe_native_open: threads 0 means all processors. (native.c, opencl.c) */
+/* Backends. lobe_native_open: threads 0 means all processors. (native.c and opencl.c, or native_none.c and opencl_none.c
+ * where one is left out) */
+lobe_status lobe_native_count(size_t *count);
 lobe_status lobe_native_open(lobe_device **out, size_t threads);
 lobe_status lobe_opencl_count(size_t *count);
 lobe_status lobe_opencl_open(lobe_device **out, size_t index);

@@ -76,16 +76,43 @@ typedef struct {
 	lobe_pool *pool;
 	lobe_native_scratch *scratch; /* [threads] */
 	pthread_mutex_t lock; /* one batch at a time */
+	double cost[LOBE_COUNT + 2][LOBE_VERB_COUNT]; /* nanoseconds of an element; LOBE_COUNT + 1: several lobes */
 } native_device;
 
 /* --- device ------------------------------------------------------------------------------------------------------ */
 
+/* Elements of a chunk. A batch that is short in time is one, which the caller's thread shades alone; of others each
+ * thread gets a few, so that one that wakes late or is disturbed takes fewer. Multiples of a page of floats: threads
+ * share no cache line of a packed array, but where the array's start has them share one. */
+static size_t chunk_size(const native_device *device, size_t count, double cost)
+{
+	const size_t page = 1024, few = 4;
+	if (device->threads == 1)
+		return LOBE_NATIVE_CHUNK;
+	if ((double)count * cost <= LOBE_NATIVE_ALONE)
+		return count;
+	const size_t share = (count / (few * device->threads) + page) / page * page;
+	return share < LOBE_NATIVE_CHUNK ? share : LOBE_NATIVE_CHUNK;
+}
+
+/* What an element costs, learnt from what the first chunk of each batch took. Lobes differ by a factor of ten and
+ * processors by more, so a number of elements would not do. A thread that was put aside in between counts little. */
+static void learn(double *cost, double took)
+{
+	*cost = *cost > took ? took : *cost + (took - *cost) / 8;
+}
+
 static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 {
 	native_device *device = (native_device *)scene->device;
-	lobe_native_job j = {scene, job, device->isa.rows, device->isa.split, device->scratch, LOBE_NATIVE_CHUNK};
+	const int whole = lobe_native_whole(scene, job);
+	double *const cost = &device->cost[whole < 0 ? LOBE_COUNT + 1 : whole][job->verb];
+	lobe_native_job j = {scene, job, device->isa.rows, device->isa.split, device->scratch, 0, 0.0};
 	pthread_mutex_lock(&device->lock);
+	j.chunk = chunk_size(device, job->count, *cost);
 	lobe_pool_run(device->pool, lobe_native_chunk, &j, (job->count + j.chunk - 1) / j.chunk);
+	if (job->count >= LOBE_NATIVE_BLOCK)
+		learn(cost, j.nanoseconds);
 	pthread_mutex_unlock(&device->lock);
 	return LOBE_OK;
 }
@@ -130,6 +157,12 @@ static size_t processors(void)
 	return online < 1 ? 1 : (size_t)online;
 }
 
+lobe_status lobe_native_count(size_t *count)
+{
+	*count = 1;
+	return LOBE_OK;
+}
+
 lobe_status lobe_native_open(lobe_device **out, size_t threads)
 {
 	isa list[ISA_COUNT];
@@ -148,6 +181,9 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 	device->base.takes_strides = 1;
 	device->isa = list[chosen];
 	device->threads = threads;
+	for (int lobe = 0; lobe < LOBE_COUNT + 2; lobe++)
+		for (int verb = 0; verb < LOBE_VERB_COUNT; verb++)
+			device->cost[lobe][verb] = 2.0;
 	pthread_mutex_init(&device->lock, NULL);
 	device->scratch = calloc(threads, sizeof *device->scratch);
 	device->pool = lobe_pool_create(threads);

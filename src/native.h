@@ -8,6 +8,11 @@
 
 /* The most elements of a chunk: their arrays stay in the second-level cache. */
 #define LOBE_NATIVE_CHUNK 8192
+/* Nanoseconds of shading up to which a batch stays on the caller's thread: below, waking another costs more than it
+ * saves. (bench/throughput --only scaling shows where.) */
+#ifndef LOBE_NATIVE_ALONE
+#define LOBE_NATIVE_ALONE 32000.0
+#endif
 /* Elements that go through a thread's own memory at a time where nothing is mixed: their arrays stay in the first-level
  * cache. */
 #define LOBE_NATIVE_BLOCK 256
@@ -39,7 +44,11 @@ typedef struct {
 	const lobe_split *split;
 	lobe_native_scratch *scratch; /* [threads] */
 	size_t chunk;
+	double nanoseconds; /* that an element of the first chunk took, set when it is done */
 } lobe_native_job;
+
+/* The only lobe of a batch (LOBE_INDEX_NONE too), or -1. */
+int lobe_native_whole(const lobe_scene *scene, const lobe_job *job);
 
 /* A lobe_pool_work; context: a lobe_native_job. */
 void lobe_native_chunk(void *context, size_t chunk, size_t thread);

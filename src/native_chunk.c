@@ -1,7 +1,9 @@
 /* native_chunk.c - one chunk of a native batch on one thread. Where arrays are packed and all elements are of one lobe
  * the row loop works on them in place. Else elements go through the thread's own memory a block at a time: packed, if
  * they lie apart; split by lobe or material, if those are mixed; shaded; and put back. */
+#define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
+#include <time.h>
 
 #include "native.h"
 #include "strides.h"
@@ -209,24 +211,39 @@ static size_t block_size(const lobe_native_job *j, int whole)
 	return apart || !all_wanted(job) ? LOBE_NATIVE_BLOCK : j->chunk;
 }
 
-void lobe_native_chunk(void *context, size_t chunk, size_t thread)
+int lobe_native_whole(const lobe_scene *scene, const lobe_job *job)
 {
-	const lobe_native_job *const j = context;
-	const lobe_job *const job = j->job;
-	const lobe_native_scene *const state = j->scene->state;
-	lobe_native_scratch *const s = &j->scratch[thread];
-	const int whole = job->material ? state->single : (int)j->scene->index[0];
+	const lobe_native_scene *const state = scene->state;
+	return job->material ? state->single : (int)scene->index[0];
+}
+
+static void shade_chunk(const lobe_native_job *j, lobe_native_scratch *s, size_t first, size_t end)
+{
+	const int whole = lobe_native_whole(j->scene, j->job);
 	const size_t step = block_size(j, whole);
-	const size_t first = chunk * j->chunk, left = job->count - first;
-	const size_t end = first + (left < j->chunk ? left : j->chunk);
 	for (size_t at = first; at < end; at += step) {
-		const block b = open_block(job, s, at, end - at < step ? end - at : step);
+		const block b = open_block(j->job, s, at, end - at < step ? end - at : step);
 		if (whole == LOBE_INDEX_NONE)
-			shade_none(job, &b);
+			shade_none(j->job, &b);
 		else if (whole >= 0)
 			shade_one(j, s, whole, &b);
 		else
 			shade_mixed(j, s, &b);
-		close_block(job, &b, at);
+		close_block(j->job, &b, at);
 	}
+}
+
+void lobe_native_chunk(void *context, size_t chunk, size_t thread)
+{
+	lobe_native_job *const j = context;
+	const size_t first = chunk * j->chunk, left = j->job->count - first, n = left < j->chunk ? left : j->chunk;
+	struct timespec start, end;
+	if (chunk != 0) {
+		shade_chunk(j, &j->scratch[thread], first, first + n);
+		return;
+	}
+	clock_gettime(CLOCK_MONOTONIC, &start);
+	shade_chunk(j, &j->scratch[thread], first, first + n);
+	clock_gettime(CLOCK_MONOTONIC, &end);
+	j->nanoseconds = ((double)(end.tv_sec - start.tv_sec) * 1e9 + (double)(end.tv_nsec - start.tv_nsec)) / (double)n;
 }

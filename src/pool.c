@@ -99,8 +99,9 @@ void lobe_pool_run(lobe_pool *pool, lobe_pool_work work, void *context, size_t c
 	pool->context = context;
 	pool->next = 0;
 	pool->chunks = chunks;
-	if (chunks > 1)
-		pthread_cond_broadcast(&pool->wake);
+	/* No more than can find a chunk beside the caller. */
+	for (size_t i = 1; i < chunks && i <= pool->worker_count; i++)
+		pthread_cond_signal(&pool->wake);
 	drain(pool, 0);
 	while (pool->running > 0)
 		pthread_cond_wait(&pool->idle, &pool->lock);

@@ -52,7 +52,8 @@ LOBE_API const char *lobe_error_message(void);
 typedef struct lobe_device lobe_device;
 typedef struct lobe_scene lobe_scene;
 
-/* Devices that backend "native" (always 1) or "opencl" (all devices of all platforms; 0 without a runtime) offers. */
+/* Devices that backend "native" (1) or "opencl" (all devices of all platforms; 0 without a runtime) offers. A library built
+ * without a backend (make LOBE_NATIVE=0, make LOBE_OPENCL=0) has 0 of it; opening one is a LOBE_ERROR_DEVICE that says so. */
 LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
 
 /* Opens a device by name:
@@ -126,7 +127,8 @@ struct _cl_device_id;
 struct _cl_command_queue;
 struct _cl_mem;
 
-/* The shared source, shading.h and all that it includes, as one string. Put it before your own kernels. */
+/* The shared source, shading.h and all that it includes, as one string. Put it before your own kernels. "" in a library
+ * built with LOBE_OPENCL=0. */
 LOBE_API const char *lobe_opencl_source(void);
 
 /* Build options for a program that holds lobe_opencl_source() and serves this scene: exact arithmetic, and the scene's
