@@ -46,9 +46,10 @@ ROW_DIR ?= $(B)/obj
 NATIVE_SOURCES := $(wildcard src/native*.c src/pool.c)
 OPENCL_SOURCES := $(wildcard src/opencl*.c)
 NONE_SOURCES := src/native_none.c src/opencl_none.c
-LOOP_SOURCES := src/rows.c src/split.c
+LOOP_SOURCES := src/rows.c src/split.c src/linked.c
 SOURCES := $(filter-out $(NATIVE_SOURCES) $(OPENCL_SOURCES) $(LOOP_SOURCES),$(wildcard src/*.c))
-ROW_OBJECTS := $(foreach i,$(ISAS),$(ROW_DIR)/split_$(i).o $(foreach l,$(LOBES),$(ROW_DIR)/rows_$(i)_$(l).o))
+ROW_OBJECTS := $(foreach i,$(ISAS),$(ROW_DIR)/split_$(i).o $(foreach l,$(LOBES),$(ROW_DIR)/rows_$(i)_$(l).o)) \
+	$(foreach l,$(LOBES),$(ROW_DIR)/linked_$(l).o)
 ifeq ($(LOBE_NATIVE),0)
 SOURCES += src/native_none.c
 else
@@ -88,6 +89,13 @@ $(ROW_DIR)/split_$(1).o: src/split.c $(HEADERS) | $(B)/obj
 	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/split.c -o $$@
 endef
 $(foreach i,$(ISAS),$(eval $(call SPLIT_RULE,$(i))))
+
+define LINKED_RULE
+$(ROW_DIR)/linked_$(1).o: src/linked.c $(HEADERS) | $(B)/obj
+	@echo "  cc    $$@"
+	$(Q)$(CC) $(LIB_CFLAGS) -DLOBE_ROW=$(1) -c src/linked.c -o $$@
+endef
+$(foreach l,$(LOBES),$(eval $(call LINKED_RULE,$(l))))
 
 # The OpenCL source is the headers themselves, put into the library as text.
 $(B)/embed: cl/embed.c

@@ -10,68 +10,35 @@
 #include "native.h"
 #include "pool.h"
 
-#define LOBE_X(NAME, name, kind) extern const lobe_rows lobe_rows_baseline_##name;
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-static const lobe_rows *const rows_baseline[LOBE_COUNT] = {
-#define LOBE_X(NAME, name, kind) &lobe_rows_baseline_##name,
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-};
-
-#ifdef LOBE_X86
-#define LOBE_X(NAME, name, kind) extern const lobe_rows lobe_rows_avx2_##name, lobe_rows_avx512_##name;
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-static const lobe_rows *const rows_avx2[LOBE_COUNT] = {
-#define LOBE_X(NAME, name, kind) &lobe_rows_avx2_##name,
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-};
-static const lobe_rows *const rows_avx512[LOBE_COUNT] = {
-#define LOBE_X(NAME, name, kind) &lobe_rows_avx512_##name,
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-};
-#endif
-
 extern const lobe_split lobe_split_baseline;
 #ifdef LOBE_X86
 extern const lobe_split lobe_split_avx2, lobe_split_avx512;
 #endif
 
-/* Instruction sets from the widest to the narrowest; the last runs anywhere. */
 typedef struct {
 	const char *name;
-	const lobe_rows *const *rows;
 	const lobe_split *split;
 	int runs_here;
 } isa;
 
-#ifdef LOBE_X86
-#define ISA_COUNT 3
-#else
-#define ISA_COUNT 1
-#endif
-
+/* list: by LOBE_ISA_*. */
 static void list_isas(isa *list)
 {
-	const isa baseline = {"baseline", rows_baseline, &lobe_split_baseline, 1};
 #ifdef LOBE_X86
-	const isa avx512 = {"avx512", rows_avx512, &lobe_split_avx512,
-			    __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-				    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")};
-	const isa avx2 = {"avx2", rows_avx2, &lobe_split_avx2,
-			  __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
-	*list++ = avx512;
-	*list++ = avx2;
+	list[LOBE_ISA_AVX512] =
+		(isa){"avx512", &lobe_split_avx512,
+		      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+			      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")};
+	list[LOBE_ISA_AVX2] =
+		(isa){"avx2", &lobe_split_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
 #endif
-	*list = baseline;
+	list[LOBE_ISA_BASELINE] = (isa){"baseline", &lobe_split_baseline, 1};
 }
 
 typedef struct {
 	lobe_device base;
-	isa isa;
+	const lobe_rows *rows[LOBE_COUNT]; /* NULL: not linked */
+	const lobe_split *split;
 	size_t threads;
 	lobe_pool *pool;
 	lobe_native_scratch *scratch; /* [threads] */
@@ -107,7 +74,7 @@ static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 	native_device *device = (native_device *)scene->device;
 	const int whole = lobe_native_whole(scene, job);
 	double *const cost = &device->cost[whole < 0 ? LOBE_COUNT + 1 : whole][job->verb];
-	lobe_native_job j = {scene, job, device->isa.rows, device->isa.split, device->scratch, 0, 0.0};
+	lobe_native_job j = {scene, job, device->rows, device->split, device->scratch, 0, 0.0};
 	pthread_mutex_lock(&device->lock);
 	j.chunk = chunk_size(device, job->count, *cost);
 	lobe_pool_run(device->pool, lobe_native_chunk, &j, (job->count + j.chunk - 1) / j.chunk);
@@ -115,6 +82,18 @@ static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 		learn(cost, j.nanoseconds);
 	pthread_mutex_unlock(&device->lock);
 	return LOBE_OK;
+}
+
+/* That the program has the loops of every lobe in the scene. */
+static lobe_status native_scene_create(lobe_scene *scene)
+{
+	const native_device *device = (const native_device *)scene->device;
+	for (int lobe = 0; lobe < LOBE_COUNT; lobe++)
+		if (scene->table[lobe].count && !device->rows[lobe])
+			return lobe_fail(LOBE_ERROR_PARAMETER,
+					 "lobe_scene_create: lobe_%s is not linked into this program (lobe/link.h)",
+					 lobe_param_name[lobe]);
+	return lobe_native_scene_create(scene);
 }
 
 static void native_close(lobe_device *base)
@@ -127,13 +106,13 @@ static void native_close(lobe_device *base)
 }
 
 static const lobe_device_ops native_ops = {
-	native_close, lobe_native_scene_create, lobe_native_scene_destroy, native_run, NULL};
+	native_close, native_scene_create, lobe_native_scene_destroy, native_run, NULL};
 
 /* The widest instruction set that runs here, or the one that LOBE_ISA names; its place in list, or -1 and a message. */
 static int choose_isa(const isa *list)
 {
 	const char *asked = getenv("LOBE_ISA");
-	for (int i = 0; i < ISA_COUNT; i++) {
+	for (int i = 0; i < LOBE_ISA_COUNT; i++) {
 		if (asked ? strcmp(asked, list[i].name) != 0 : !list[i].runs_here)
 			continue;
 		if (list[i].runs_here)
@@ -165,7 +144,7 @@ lobe_status lobe_native_count(size_t *count)
 
 lobe_status lobe_native_open(lobe_device **out, size_t threads)
 {
-	isa list[ISA_COUNT];
+	isa list[LOBE_ISA_COUNT];
 	list_isas(list);
 	const int chosen = choose_isa(list);
 	if (chosen < 0)
@@ -179,7 +158,9 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_device_open: out of memory");
 	device->base.ops = &native_ops;
 	device->base.takes_strides = 1;
-	device->isa = list[chosen];
+	device->split = list[chosen].split;
+	for (const struct lobe_linked *const *l = lobe_linked; *l; l++)
+		device->rows[(*l)->lobe] = (*l)->rows[chosen];
 	device->threads = threads;
 	for (int lobe = 0; lobe < LOBE_COUNT + 2; lobe++)
 		for (int verb = 0; verb < LOBE_VERB_COUNT; verb++)

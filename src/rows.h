@@ -15,4 +15,21 @@ typedef struct {
 	} verb[LOBE_VERB_COUNT];
 } lobe_rows;
 
+/* Instruction sets, from the widest to the one that runs anywhere. */
+enum {
+#ifdef LOBE_X86
+	LOBE_ISA_AVX512,
+	LOBE_ISA_AVX2,
+#endif
+	LOBE_ISA_BASELINE,
+	LOBE_ISA_COUNT
+};
+
+/* The loops of a lobe (linked.c), and those of the program, up to a NULL (native_list.c, or lobe/link.h in a program). */
+struct lobe_linked {
+	int lobe; /* LOBE_INDEX_* */
+	const lobe_rows *rows[LOBE_ISA_COUNT];
+};
+extern const struct lobe_linked *const lobe_linked[];
+
 #endif

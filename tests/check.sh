@@ -8,7 +8,7 @@ mkdir -p build/tests
 analyze() {
 	for file in src/*.c examples/*.c; do
 		extra=
-		[ "$file" != src/rows.c ] || extra="-DLOBE_ROW=ggx_dielectric -DLOBE_ROW_ISA=test"
+		case $file in src/rows.c | src/linked.c) extra="-DLOBE_ROW=ggx_dielectric -DLOBE_ROW_ISA=test" ;; esac
 		# shellcheck disable=SC2086
 		clang --analyze --analyzer-output text -Xclang -analyzer-werror \
 			-Xclang -analyzer-disable-checker=core.CallAndMessage,core.UndefinedBinaryOperatorResult,core.uninitialized \

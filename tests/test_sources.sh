@@ -11,7 +11,7 @@ lobes=$(sed -n 's/^LOBE_X[A-Z_]*.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lob
 all_sources() {
 	for file in src/*.c build/gen/opencl_source.c cl/embed.c examples/minimal.c examples/batch.c; do
 		extra=
-		[ "$file" != src/rows.c ] || extra="-DLOBE_ROW=ggx_dielectric -DLOBE_ROW_ISA=test"
+		case $file in src/rows.c | src/linked.c) extra="-DLOBE_ROW=ggx_dielectric -DLOBE_ROW_ISA=test" ;; esac
 		# shellcheck disable=SC2086
 		"$1" $warnings $exact -O2 -fPIC -Iinclude -Isrc -DLOBE_X86 $extra -c "$file" -o $out/object.o || return 1
 	done
