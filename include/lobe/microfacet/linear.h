@@ -17,7 +17,7 @@
  *
  * Domain: widths 1e-4 to 100, mean slopes to 100, correlations to +-0.9999. What single precision costs there is one
  * rounding of each coordinate, magnified by how oblong the map is: measured, for slopes within 8 widths of the mean, D is
- * off by no more than 3e-6 times the condition of A. No form does better, since that is what the rounding of the normal
+ * off by no more than 5e-7 times the condition of A. No form does better, since that is what the rounding of the normal
  * itself does. */
 #ifndef LOBE_MICROFACET_LINEAR_H
 #define LOBE_MICROFACET_LINEAR_H
