@@ -8,11 +8,17 @@ double leadr_tail(leadr_kind kind, double t2) { return kind == LEADR_GGX ? 1.0 /
 
 double leadr_tail_inverse(leadr_kind kind, double q) { return kind == LEADR_GGX ? 1.0 / q - 1.0 : -log(q); }
 
-double leadr_p22(const leadr *s, double slope_x, double slope_y)
+/* Squared length of the whitened slopes. */
+static double whitened(const leadr *s, double slope_x, double slope_y)
 {
 	const double x = slope_x - s->tx, y = slope_y - s->ty, root = sqrt(1.0 - s->rho * s->rho);
 	const double p = x / s->ax, q = (s->ax * y - s->rho * s->ay * x) / (s->ax * s->ay * root);
-	const double r2 = p * p + q * q, det = s->ax * s->ay * root;
+	return p * p + q * q;
+}
+
+double leadr_p22(const leadr *s, double x, double y)
+{
+	const double r2 = whitened(s, x, y), det = s->ax * s->ay * sqrt(1.0 - s->rho * s->rho);
 	return (s->kind == LEADR_GGX ? 1.0 / ((1.0 + r2) * (1.0 + r2)) : exp(-r2)) / (PI * det);
 }
 
@@ -21,6 +27,11 @@ double leadr_d(const leadr *s, const double m[3])
 	if (m[2] <= 0.0)
 		return 0.0;
 	return leadr_p22(s, -m[0] / m[2], -m[1] / m[2]) / (m[2] * m[2] * m[2] * m[2]);
+}
+
+double leadr_steepness(const leadr *s, const double m[3])
+{
+	return s->kind == LEADR_GGX ? 1.0 : 1.0 + whitened(s, -m[0] / m[2], -m[1] / m[2]);
 }
 
 void leadr_direction(const leadr *s, const double k[3], double v[3])

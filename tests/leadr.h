@@ -26,6 +26,9 @@ double leadr_lambda(leadr_kind kind, const double v[3]);
 double leadr_tail(leadr_kind kind, double t2);
 double leadr_tail_inverse(leadr_kind kind, double q);
 
+/* By how much errors of the whitened slopes grow in P22 and D at m: 1, or 1 + r^2 where exp(-r^2) falls. */
+double leadr_steepness(const leadr *s, const double m[3]);
+
 /* Ratio of the largest to the smallest singular value of the map of slopes. */
 double leadr_condition(const leadr *s);
 

@@ -267,7 +267,8 @@ static void test_masking_of_an_explicit_surface(void)
 		planted = larger(planted, fabs(share(&s[IMAGE]) - flat_g1));
 		planted_area = fmin(planted_area, fabs(mean(&s[IMAGE].area) - flat_sigma) / error(&s[IMAGE].area));
 	}
-	measured("invariance: seen of facing points, against their images", images, 1e-5);
+	/* The library's direction is in floats: 1 of 10^5 points may be that near to being hidden. */
+	measured("invariance: seen of facing points, against their images", images, 3e-5);
 	measured("  against other points of the surface, in standard errors", others, 3.0);
 	measured("sigma of the explicit surface against theory, in standard errors", area, 4.0);
 	measured("seen area against the mean plane's v.z, in standard errors", conserved, 4.0);

@@ -123,7 +123,7 @@ static double observe(histogram *h, const leadr *whiten, uint32_t stream)
 				worst = larger(
 					worst,
 					fabs((double)lobe_microsurface_visible_pdf(h->surface, h->w, m) / exact - 1.0) *
-						c);
+						c / leadr_steepness(&h->s, d));
 			else
 				TEST_ASSERT_TRUE(c > -1e-6 * h->k[2] - 3e-7);
 		}

@@ -10,15 +10,15 @@
  * above 0 the mean plane faces away, and yet sigma(w) > 0: some facets face w. microsurface.h puts it all together.
  *
  * All is per unit of area of the horizontal plane, which no shear changes: the integral of D(m) m.z is 1, and that of
- * D(m) m is the vector (-mean_x, -mean_y, 1), normal to the mean plane and as long as it has area.
+ * D(m) m is the vector (-mean_x, -mean_y, 1), the mean plane's normal times its area.
  *
  * stretch.h is the special case A = diag(alpha_x, alpha_y), mean = 0 that production lobes are built from, with a third of
  * the arithmetic; lobe_linear_stretch gives the same bits (tests/test_linear.c).
  *
  * Domain: widths 1e-4 to 100, mean slopes to 100, correlations to +-0.9999. What single precision costs there is one
- * rounding of each coordinate, magnified by how oblong the map is: measured, for slopes within 8 widths of the mean, D is
- * off by no more than 5e-7 times the condition of A. No form does better, since that is what the rounding of the normal
- * itself does. */
+ * rounding of each coordinate, magnified by how oblong the map is: D is off by at most 5e-7 times the condition of A, and
+ * for Beckmann times 1 + r^2 too, r in widths (tests/test_linear.c, which looks at r < 8). No form does better, since the
+ * rounding of the normal itself does as much. */
 #ifndef LOBE_MICROFACET_LINEAR_H
 #define LOBE_MICROFACET_LINEAR_H
 
