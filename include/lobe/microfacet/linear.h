@@ -136,11 +136,10 @@ LOBE_FN lobe_linear lobe_linear_from_moments(lobe_real mean_x, lobe_real mean_y,
 					     lobe_real cov)
 {
 	const lobe_real zero = LOBE_R(0.0);
-	const lobe_real half = LOBE_R(0.5);
 	const lobe_real least = LOBE_ALPHA_MIN * LOBE_ALPHA_MIN;
-	const lobe_real d = half * (var_x - var_y);
+	const lobe_real d = LOBE_R(0.5) * (var_x - var_y);
 	const lobe_real h = lobe_sqrt(lobe_fma(d, d, cov * cov));
-	const lobe_real large = half * (var_x + var_y) + h;
+	const lobe_real large = lobe_fma(LOBE_R(0.5), var_x + var_y, h);
 	const lobe_real small = lobe_diff_of_products(var_x, var_y, cov, cov) / (large == zero ? LOBE_R(1.0) : large);
 	const lobe_real two_large = large + large;
 	const lobe_real two_small = small + small;
