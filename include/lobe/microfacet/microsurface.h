@@ -65,7 +65,7 @@ LOBE_FN lobe_real lobe_microsurface_g2(lobe_microsurface s, lobe_vec3 o, lobe_ve
 	const lobe_real t_o = lobe_fma(two, lobe_distribution_hidden(s.normals, vo), lobe_abs(vo.z));
 	const lobe_real t_i = lobe_fma(two, lobe_distribution_hidden(s.normals, vi), lobe_abs(vi.z));
 	const lobe_real g2 = lobe_finite_or_zero(vo.z * lobe_smith_g2_over_cos(vo.z, t_o, vi.z, t_i));
-	return (vo.z > LOBE_R(0.0)) & (vi.z > LOBE_R(0.0)) ? g2 : LOBE_R(0.0);
+	return lobe_min(vo.z, vi.z) > LOBE_R(0.0) ? g2 : LOBE_R(0.0);
 }
 
 /* A normal visible from w; the zero vector where no facet faces w. */
