@@ -5,8 +5,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { BLOCK = 8 };
+enum { BLOCK = 8, STEPS_MAX = 1 << 16 };
 
 /* --- light ------------------------------------------------------------------------------------------------------ */
 
@@ -83,7 +84,8 @@ static int trace_ray(const struct relief *r, struct point *p, struct point d)
 	const double across = sqrt(d.x * d.x + d.y * d.y), closing = fabs(d.z) + 1.5 * r->steepest * across;
 	const double least = fmin(across > 0.0 ? 1.0 / across : HUGE_VAL, (r->top - r->bottom) / fabs(d.z));
 	double above = fmax(p->z - height_at(r, p->x, p->y), 0.0);
-	while (d.z < 0.0 || p->z < r->top) {
+	/* Directions that graze the top could go on for ever. */
+	for (int i = 0; i < STEPS_MAX && (d.z < 0.0 || p->z < r->top); i++) {
 		const double step = fmax(least, above / closing);
 		const struct point q = {p->x + step * d.x, p->y + step * d.y, p->z + step * d.z};
 		const double next = q.z - height_at(r, q.x, q.y);
@@ -171,17 +173,17 @@ static lobe_rgb sample_field(const struct relief *r, const struct place *p, cons
 	return light(to_world(p, wi));
 }
 
-static lobe_rgb sample_surface(const lobe_microsurface *s, const struct place *p, const float u[3])
+static lobe_rgb sample_surface(lobe_microsurface s, const struct place *p, const float u[3])
 {
-	const lobe_vec3 m = lobe_microsurface_visible(*s, p->wo, lobe_vec2_make(u[0], u[1]));
+	const lobe_vec3 m = lobe_microsurface_visible(s, p->wo, lobe_vec2_make(u[0], u[1]));
 	const lobe_vec3 wi = lobe_reflect(p->wo, m, lobe_dot(p->wo, m));
-	const float g1 = lobe_microsurface_g1(*s, p->wo);
-	const float weight = g1 > 0.0f ? lobe_microsurface_g2(*s, p->wo, wi) / g1 : 0.0f;
+	const float g1 = lobe_microsurface_g1(s, p->wo);
+	const float weight = g1 > 0.0f ? lobe_microsurface_g2(s, p->wo, wi) / g1 : 0.0f;
 	return lobe_rgb_scale(light(to_world(p, wi)), weight);
 }
 
-/* One of relief and surface. */
-static void render(const struct sphere_view *view, const struct relief *relief, const lobe_microsurface *surface)
+/* The relief, or the surface where there is none. */
+static void render(const struct sphere_view *view, const struct relief *relief, lobe_microsurface surface)
 {
 	const float size = (float)view->size, radius = 0.47f;
 	for (int j = 0; j < view->size; j++) {
@@ -215,6 +217,7 @@ static void render(const struct sphere_view *view, const struct relief *relief, 
 int sphere_of_field(const struct sphere_view *view, const struct field *field, double mean_x, double mean_y)
 {
 	const size_t n = (size_t)field->size;
+	lobe_microsurface none;
 	struct relief r = {field->size, malloc(n * n * sizeof(float)), mean_x, mean_y, -HUGE_VAL, HUGE_VAL, 0.0};
 	if (!r.heights)
 		return -1;
@@ -228,12 +231,13 @@ int sphere_of_field(const struct sphere_view *view, const struct field *field, d
 		if (i >= n)
 			r.steepest = fmax(r.steepest, fabs(z - (double)r.heights[i - n]));
 	}
-	render(view, &r, NULL);
+	memset(&none, 0, sizeof none);
+	render(view, &r, none);
 	free(r.heights);
 	return 0;
 }
 
-void sphere_of_surface(const struct sphere_view *view, lobe_microsurface surface) { render(view, NULL, &surface); }
+void sphere_of_surface(const struct sphere_view *view, lobe_microsurface surface) { render(view, NULL, surface); }
 
 double sphere_difference(const struct image *image, int a, int b, int size)
 {
