@@ -1,5 +1,5 @@
-/* test_linear.c - microfacet/linear.h and microsurface.h: maps, their constructors, D, projected area, masking. */
-#include "lobe/microfacet/microsurface.h"
+/* test_linear.c - microfacet/linear.h and smith.h: maps, their constructors, D, projected area, masking. */
+#include "lobe/microfacet/smith.h"
 
 #include "leadr.h"
 #include "measured.h"
@@ -42,9 +42,9 @@ static lobe_linear map_of(const leadr *s)
 				  (float)s->ty);
 }
 
-static lobe_microsurface surface_of(const leadr *s, size_t distribution)
+static lobe_smith surface_of(const leadr *s, size_t distribution)
 {
-	return lobe_microsurface_make(lobe_distribution_make(fixed[distribution].ndf), map_of(s));
+	return lobe_smith_make(lobe_distribution_make(fixed[distribution].ndf), map_of(s));
 }
 
 /* x as a float. volatile: gcc 12 at -O2 drops the rounding of two side by side that are used as doubles again. */
@@ -233,12 +233,12 @@ static void test_composition(void)
 			points = worse(points, fabs(back[k] / M[2][2] - (double)w[k]));
 		const double det = (M[0][0] * M[1][1] - M[0][1] * M[1][0]) * M[2][2];
 		const leadr one = {LEADR_GGX, 1.0, 1.0, 0.0, 0.0, 0.0};
-		const lobe_microsurface s = lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), outer);
+		const lobe_smith s = lobe_smith_make(lobe_distribution_make(LOBE_NDF_GGX), outer);
 		/* leadr_d is of degree -4: the length of h falls out. */
 		if (w[2] > 0.0f)
-			formula = worse(formula, fabs((double)lobe_microsurface_d(s, v) /
-							      (fabs(det) * M[2][2] * leadr_d(&one, h)) -
-						      1.0));
+			formula = worse(
+				formula,
+				fabs((double)lobe_smith_d(s, v) / (fabs(det) * M[2][2] * leadr_d(&one, h)) - 1.0));
 	}
 	measured("composition against one after the other", worst, 100.0 * U);
 	measured("w' = M^-1 w", points, 30.0 * U);
@@ -271,7 +271,7 @@ static void test_d(void)
 		double worst = 0.0;
 		for (uint64_t i = 0; i < 200000; i++) {
 			const leadr s = random_surface(4, i, (leadr_kind)kind_of(n));
-			const lobe_microsurface m = surface_of(&s, n);
+			const lobe_smith m = surface_of(&s, n);
 			/* A facet within 8 widths of the mean (4 where exp takes over). */
 			const double r = (s.kind == LEADR_GGX ? 8.0 : 4.0) * uniform(5, 2 * i),
 				     phi = 2.0 * PI * uniform(5, 2 * i + 1);
@@ -281,7 +281,7 @@ static void test_d(void)
 			const double len = sqrt(h[0] * h[0] + h[1] * h[1] + 1.0);
 			for (int k = 0; k < 3; k++)
 				h[k] = single(h[k] / len);
-			const double exact = leadr_d(&s, h), got = (double)lobe_microsurface_d(m, rounded(h));
+			const double exact = leadr_d(&s, h), got = (double)lobe_smith_d(m, rounded(h));
 			/* Rounding of a tilted normal may throw its facet far out of these 8 widths. */
 			if (exact > 1e-37 && exact < 1e37 && exact * s.ax * s.ay > 1e-12)
 				worst = worse(worst,
@@ -312,7 +312,7 @@ static void test_sigma(void)
 				k[c] = (double)w[c];
 			leadr_direction(&s, k, v);
 			const double exact = leadr_sigma(&s, k), across = hypot(v[0], v[1]);
-			const double got = (double)lobe_microsurface_sigma(surface_of(&s, n), rounded(k));
+			const double got = (double)lobe_smith_sigma(surface_of(&s, n), rounded(k));
 			const double cancels = (s.ax * fabs(k[0]) + s.ay * fabs(k[1])) / across;
 			const double cot2 =
 				s.kind == LEADR_BECKMANN && v[2] < 0.0 ? v[2] * v[2] / (across * across) : 0.0;
@@ -342,7 +342,7 @@ static const leadr surfaces[] = {
  * x^2, so that x runs over (0, 1) and r x is smooth. */
 typedef struct {
 	leadr s;
-	lobe_microsurface surface;
+	lobe_smith surface;
 	double w[3], v[3];
 	int power; /* 0: slope moments 1; 1, 2: of m.x, m.y; 3: max(0, w.m) */
 } integrand;
@@ -354,7 +354,7 @@ static double p22_at(const integrand *f, double r, double phi, double *slope_x, 
 	const double x = -r * cos(phi), y = -r * sin(phi);
 	*slope_x = f->s.ax * x + f->s.tx;
 	*slope_y = f->s.ay * (f->s.rho * x + sqrt(1.0 - f->s.rho * f->s.rho) * y) + f->s.ty;
-	return (double)lobe_microsurface_p22(f->surface, (float)*slope_x, (float)*slope_y);
+	return (double)lobe_smith_p22(f->surface, (float)*slope_x, (float)*slope_y);
 }
 
 /* At radius r, over phi. */
@@ -467,7 +467,7 @@ static void test_projected_area(void)
 				if (leadr_sigma(&f.s, f.w) < 1e-6)
 					continue; /* beyond the radii of this quadrature */
 				const double area = integral(&f);
-				const double sigma = (double)lobe_microsurface_sigma(f.surface, rounded(f.w));
+				const double sigma = (double)lobe_smith_sigma(f.surface, rounded(f.w));
 				const double terms = area + fabs(f.w[0] * f.s.tx) + fabs(f.w[1] * f.s.ty);
 				worst = worse(worst, fabs(sigma - area) / terms / leadr_condition(&f.s));
 				/* Planted: a sigma that forgets the tilt. */
@@ -497,7 +497,7 @@ static void test_masking(void)
 			s.tx = s.tx > 0.0 ? s.tx / 100.0 : 0.0; /* to 1: else the plane seldom faces both */
 			s.ty /= 100.0;
 			s = as_floats(s);
-			const lobe_microsurface m = surface_of(&s, n);
+			const lobe_smith m = surface_of(&s, n);
 			float o[3], w[3];
 			double ko[3], ki[3], vo[3], vi[3];
 			test_direction(9, 2 * i, o);
@@ -508,8 +508,8 @@ static void test_masking(void)
 			}
 			leadr_direction(&s, ko, vo);
 			leadr_direction(&s, ki, vi);
-			const double got1 = (double)lobe_microsurface_g1(m, rounded(ko));
-			const double got2 = (double)lobe_microsurface_g2(m, rounded(ko), rounded(ki));
+			const double got1 = (double)lobe_smith_g1(m, rounded(ko));
+			const double got2 = (double)lobe_smith_g2(m, rounded(ko), rounded(ki));
 			TEST_ASSERT_TRUE(vo[2] > 1e-6 || got1 < 0.01 || s.ax < 0.01 || s.ay < 0.01);
 			if (vo[2] > 0.01)
 				g1 = worse(g1, fabs(got1 * (1.0 + leadr_lambda(s.kind, vo)) - 1.0));
@@ -528,15 +528,15 @@ static void test_masking(void)
 }
 
 /* Whatever the parameters: finite and not negative; in the domain there is a normal to see wherever facets face w. */
-static void extremes_of(lobe_microsurface s, lobe_vec3 o, lobe_vec2 u, int in_domain)
+static void extremes_of(lobe_smith s, lobe_vec3 o, lobe_vec2 u, int in_domain)
 {
-	const lobe_vec3 m = lobe_microsurface_visible(s, o, u);
-	const float out[] = {lobe_microsurface_d(s, o),
-			     lobe_microsurface_p22(s, o.x, o.y),
-			     lobe_microsurface_sigma(s, o),
-			     lobe_microsurface_g1(s, o),
-			     lobe_microsurface_g2(s, o, o),
-			     lobe_microsurface_visible_pdf(s, o, m),
+	const lobe_vec3 m = lobe_smith_visible(s, o, u);
+	const float out[] = {lobe_smith_d(s, o),
+			     lobe_smith_p22(s, o.x, o.y),
+			     lobe_smith_sigma(s, o),
+			     lobe_smith_g1(s, o),
+			     lobe_smith_g2(s, o, o),
+			     lobe_smith_visible_pdf(s, o, m),
 			     m.z,
 			     m.x * m.x,
 			     m.y * m.y};
@@ -561,7 +561,7 @@ static void test_extremes(void)
 			lobe_linear_correlated(widths[a], widths[b], (float)rhos[(a + b + t + w + k) % 8]), tilts[t][0],
 			tilts[t][1]);
 		const int in_domain = kind_of(n) == LEADR_GGX && a < 5 && b < 5 && t < 4 && w < 6;
-		extremes_of(lobe_microsurface_make(lobe_distribution_make(fixed[n].ndf), map),
+		extremes_of(lobe_smith_make(lobe_distribution_make(fixed[n].ndf), map),
 			    lobe_vec3_make(ws[w][0], ws[w][1], ws[w][2]), lobe_vec2_make(u[k / 4], u[k % 4]),
 			    in_domain);
 		count++;

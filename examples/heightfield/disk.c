@@ -53,12 +53,12 @@ static double wanted_d(const void *context, lobe_vec3 m)
 
 static double surface_d(const void *context, lobe_vec3 m)
 {
-	return (double)lobe_microsurface_d(*(const lobe_microsurface *)context, m);
+	return (double)lobe_smith_d(*(const lobe_smith *)context, m);
 }
 
 void disk_of_wanted(struct disk *disk, const struct wanted *w) { fill(disk, wanted_d, w); }
 
-void disk_of_surface(struct disk *disk, lobe_microsurface surface) { fill(disk, surface_d, &surface); }
+void disk_of_surface(struct disk *disk, lobe_smith surface) { fill(disk, surface_d, &surface); }
 
 double disk_distance(const struct disk *a, const struct disk *b)
 {

@@ -18,7 +18,7 @@ void disk_free(struct disk *disk);
 
 void disk_of_slopes(struct disk *disk, const lobe_slope_moments *slopes, size_t count);
 void disk_of_wanted(struct disk *disk, const struct wanted *w);
-void disk_of_surface(struct disk *disk, lobe_microsurface surface);
+void disk_of_surface(struct disk *disk, lobe_smith surface);
 
 /* Half the sum of differences of the shares of all cells, which are joined to blocks of 8 x 8 first: 0 for the same, 1
  * for what has nothing in common. */

@@ -48,10 +48,9 @@ int fit_all(struct fits *fits, const lobe_slope_stats *stats, const lobe_slope_m
 	/* Of GGX of width alpha half the area is steeper than tan = alpha. */
 	const float alpha = lobe_sqrt(steepness[count / 2]);
 	free(steepness);
-	fits->surface[FIT_BECKMANN] =
-		lobe_microsurface_make(lobe_distribution_make(distribution_named("beckmann")), map);
-	fits->surface[FIT_GGX] = lobe_microsurface_make(ggx, map);
+	fits->surface[FIT_BECKMANN] = lobe_smith_make(lobe_distribution_make(distribution_named("beckmann")), map);
+	fits->surface[FIT_GGX] = lobe_smith_make(ggx, map);
 	fits->surface[FIT_GGX_MEDIAN] =
-		lobe_microsurface_make(ggx, lobe_linear_compose(map, lobe_linear_stretch(alpha, alpha)));
+		lobe_smith_make(ggx, lobe_linear_compose(map, lobe_linear_stretch(alpha, alpha)));
 	return 0;
 }

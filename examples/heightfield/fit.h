@@ -3,14 +3,14 @@
 #define HEIGHTFIELD_FIT_H
 
 #include "lobe/lobe.h"
-#include "lobe/microfacet/microsurface.h"
+#include "lobe/microfacet/smith.h"
 
 enum { FIT_BECKMANN, FIT_GGX, FIT_GGX_MEDIAN, FITS };
 
 extern const char *const fit_name[FITS];
 
 struct fits {
-	lobe_microsurface surface[FITS];
+	lobe_smith surface[FITS];
 };
 
 /* From the statistics, and for the last one the texels too: a GGX surface whose moments do not matter, as those of GGX

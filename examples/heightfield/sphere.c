@@ -173,17 +173,17 @@ static lobe_rgb sample_field(const struct relief *r, const struct place *p, cons
 	return light(to_world(p, wi));
 }
 
-static lobe_rgb sample_surface(lobe_microsurface s, const struct place *p, const float u[3])
+static lobe_rgb sample_surface(lobe_smith s, const struct place *p, const float u[3])
 {
-	const lobe_vec3 m = lobe_microsurface_visible(s, p->wo, lobe_vec2_make(u[0], u[1]));
+	const lobe_vec3 m = lobe_smith_visible(s, p->wo, lobe_vec2_make(u[0], u[1]));
 	const lobe_vec3 wi = lobe_reflect(p->wo, m, lobe_dot(p->wo, m));
-	const float g1 = lobe_microsurface_g1(s, p->wo);
-	const float weight = g1 > 0.0f ? lobe_microsurface_g2(s, p->wo, wi) / g1 : 0.0f;
+	const float g1 = lobe_smith_g1(s, p->wo);
+	const float weight = g1 > 0.0f ? lobe_smith_g2(s, p->wo, wi) / g1 : 0.0f;
 	return lobe_rgb_scale(light(to_world(p, wi)), weight);
 }
 
 /* The relief, or the surface where there is none. */
-static void render(const struct sphere_view *view, const struct relief *relief, lobe_microsurface surface)
+static void render(const struct sphere_view *view, const struct relief *relief, lobe_smith surface)
 {
 	const float size = (float)view->size, radius = 0.47f;
 	for (int j = 0; j < view->size; j++) {
@@ -217,7 +217,7 @@ static void render(const struct sphere_view *view, const struct relief *relief, 
 int sphere_of_field(const struct sphere_view *view, const struct field *field, double mean_x, double mean_y)
 {
 	const size_t n = (size_t)field->size;
-	lobe_microsurface none;
+	lobe_smith none;
 	struct relief r = {field->size, malloc(n * n * sizeof(float)), mean_x, mean_y, -HUGE_VAL, HUGE_VAL, 0.0};
 	if (!r.heights)
 		return -1;
@@ -237,7 +237,7 @@ int sphere_of_field(const struct sphere_view *view, const struct field *field, d
 	return 0;
 }
 
-void sphere_of_surface(const struct sphere_view *view, lobe_microsurface surface) { render(view, NULL, surface); }
+void sphere_of_surface(const struct sphere_view *view, lobe_smith surface) { render(view, NULL, surface); }
 
 double sphere_difference(const struct image *image, int a, int b, int size)
 {

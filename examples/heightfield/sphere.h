@@ -25,7 +25,7 @@ struct sphere_view {
 int sphere_of_field(const struct sphere_view *view, const struct field *field, double mean_x, double mean_y);
 
 /* The same light from the distribution, by its visible normals, Smith's masking and shadowing. */
-void sphere_of_surface(const struct sphere_view *view, lobe_microsurface surface);
+void sphere_of_surface(const struct sphere_view *view, lobe_smith surface);
 
 /* Mean of |a - b| over the mean of b, of two such pictures that begin at these columns. Blocks of 8 x 8 pixels are taken
  * together, so that less of it is noise. */

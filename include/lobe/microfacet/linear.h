@@ -7,7 +7,7 @@
  * functions are those of stretch.h: directions and normals of the mapped surface turn into those of the surface of width 1,
  * nothing is normalised, and projected areas come out as they are: sigma(w) = sigma_1(lobe_linear_direction(w)), of which
  * the mean plane's share is v.z = w.z - mean.w. That share is what can be seen of the surface from w: where it is not
- * above 0 the mean plane faces away, and yet sigma(w) > 0: some facets face w. microsurface.h puts it all together.
+ * above 0 the mean plane faces away, and yet sigma(w) > 0: some facets face w. smith.h puts it all together.
  *
  * All is per unit of area of the horizontal plane, which no shear changes: the integral of D(m) m.z is 1, and that of
  * D(m) m is the vector (-mean_x, -mean_y, 1), the mean plane's normal times its area.

@@ -1,5 +1,5 @@
-/* microsurface.h - a distribution of normals (distribution.h) under a linear map (linear.h): D, projected area, Smith's
- * masking and visible normals of a stretched, skewed and tilted surface.
+/* smith.h - Smith's microsurface: a distribution of normals (distribution.h) under a linear map (linear.h), with D, projected
+ * area, masking and visible normals of a stretched, skewed and tilted surface.
  *
  * For shading normals that face away. The mean plane of a tilted surface may face away from a w above the horizon:
  * v.z <= 0 with w.z > 0. Some facets still face w, and visible normals with the density D(m) max(0, w.m)/sigma(w) are
@@ -9,8 +9,8 @@
  * masking is G1 = v.z/sigma, and 0 where v.z <= 0.
  *
  * Directions and normals are unit. Each function is 0 where a parameter is no number. */
-#ifndef LOBE_MICROFACET_MICROSURFACE_H
-#define LOBE_MICROFACET_MICROSURFACE_H
+#ifndef LOBE_MICROFACET_SMITH_H
+#define LOBE_MICROFACET_SMITH_H
 
 #include "distribution.h"
 #include "linear.h"
@@ -18,18 +18,18 @@
 typedef struct {
 	lobe_distribution normals;
 	lobe_linear map;
-} lobe_microsurface;
+} lobe_smith;
 
-LOBE_FN lobe_microsurface lobe_microsurface_make(lobe_distribution normals, lobe_linear map)
+LOBE_FN lobe_smith lobe_smith_make(lobe_distribution normals, lobe_linear map)
 {
-	lobe_microsurface s;
+	lobe_smith s;
 	s.normals = normals;
 	s.map = map;
 	return s;
 }
 
 /* D(m) [1/sr]: area of facets per area of the horizontal plane. 0 for m.z <= 0. */
-LOBE_FN lobe_real lobe_microsurface_d(lobe_microsurface s, lobe_vec3 m)
+LOBE_FN lobe_real lobe_smith_d(lobe_smith s, lobe_vec3 m)
 {
 	const lobe_facet_density d = lobe_distribution_density(s.normals, lobe_linear_facet(s.map, m));
 	const lobe_real value = lobe_finite_or_zero(s.map.norm * d.inv * d.inv * d.factor);
@@ -37,19 +37,19 @@ LOBE_FN lobe_real lobe_microsurface_d(lobe_microsurface s, lobe_vec3 m)
 }
 
 /* The same per slope: P22(x, y), area of the horizontal plane under facets of these slopes. Integrates to 1. */
-LOBE_FN lobe_real lobe_microsurface_p22(lobe_microsurface s, lobe_real x, lobe_real y)
+LOBE_FN lobe_real lobe_smith_p22(lobe_smith s, lobe_real x, lobe_real y)
 {
-	return lobe_microsurface_d(s, lobe_vec3_make(-x, -y, LOBE_R(1.0)));
+	return lobe_smith_d(s, lobe_vec3_make(-x, -y, LOBE_R(1.0)));
 }
 
 /* Projected area of all facets that face w, on either side of the horizon, per area of the horizontal plane. */
-LOBE_FN lobe_real lobe_microsurface_sigma(lobe_microsurface s, lobe_vec3 w)
+LOBE_FN lobe_real lobe_smith_sigma(lobe_smith s, lobe_vec3 w)
 {
 	return lobe_finite_or_zero(lobe_distribution_sigma(s.normals, lobe_linear_direction(s.map, w)));
 }
 
 /* Smith's masking: the fraction of that which is seen. */
-LOBE_FN lobe_real lobe_microsurface_g1(lobe_microsurface s, lobe_vec3 w)
+LOBE_FN lobe_real lobe_smith_g1(lobe_smith s, lobe_vec3 w)
 {
 	const lobe_vec3 v = lobe_linear_direction(s.map, w);
 	const lobe_real g1 = v.z / (v.z + lobe_distribution_hidden(s.normals, v));
@@ -57,7 +57,7 @@ LOBE_FN lobe_real lobe_microsurface_g1(lobe_microsurface s, lobe_vec3 w)
 }
 
 /* Masking and shadowing, height-correlated (Heitz 2014, eq. 99): seen from o and lit from i, both on the upper side. */
-LOBE_FN lobe_real lobe_microsurface_g2(lobe_microsurface s, lobe_vec3 o, lobe_vec3 i)
+LOBE_FN lobe_real lobe_smith_g2(lobe_smith s, lobe_vec3 o, lobe_vec3 i)
 {
 	const lobe_real two = LOBE_R(2.0);
 	const lobe_vec3 vo = lobe_linear_direction(s.map, o);
@@ -69,7 +69,7 @@ LOBE_FN lobe_real lobe_microsurface_g2(lobe_microsurface s, lobe_vec3 o, lobe_ve
 }
 
 /* A normal visible from w; the zero vector where no facet faces w. */
-LOBE_FN lobe_vec3 lobe_microsurface_visible(lobe_microsurface s, lobe_vec3 w, lobe_vec2 u)
+LOBE_FN lobe_vec3 lobe_smith_visible(lobe_smith s, lobe_vec3 w, lobe_vec2 u)
 {
 	const lobe_vec3 n = lobe_distribution_visible(s.normals, lobe_linear_direction(s.map, w), u);
 	const lobe_vec3 m = lobe_linear_normal(s.map, n);
@@ -80,10 +80,10 @@ LOBE_FN lobe_vec3 lobe_microsurface_visible(lobe_microsurface s, lobe_vec3 w, lo
 }
 
 /* Its density D(m) max(0, w.m)/sigma(w) [1/sr]. */
-LOBE_FN lobe_real lobe_microsurface_visible_pdf(lobe_microsurface s, lobe_vec3 w, lobe_vec3 m)
+LOBE_FN lobe_real lobe_smith_visible_pdf(lobe_smith s, lobe_vec3 w, lobe_vec3 m)
 {
 	const lobe_real facing = lobe_max(lobe_dot(w, m), LOBE_R(0.0));
-	return lobe_finite_or_zero(lobe_microsurface_d(s, m) * facing / lobe_microsurface_sigma(s, w));
+	return lobe_finite_or_zero(lobe_smith_d(s, m) * facing / lobe_smith_sigma(s, w));
 }
 
 #endif

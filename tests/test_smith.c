@@ -1,10 +1,10 @@
-/* test_microsurface.c - visible normals of skewed and tilted surfaces: samples against the density bin by bin, also from
+/* test_smith.c - visible normals of skewed and tilted surfaces: samples against the density bin by bin, also from
  * directions that the mean plane faces away from.
  *
  * Bins are of facets of the standard surface (1/sqrt(1 + r^2) or its like, azimuth), whose probabilities come from
  * leadr.c alone: under the tail x^2 of radius r the standard surface has the area dx^2 dphi/(2 pi), of which max(0, v.n)
  * is seen from v. */
-#include "lobe/microfacet/microsurface.h"
+#include "lobe/microfacet/smith.h"
 
 #include "leadr.h"
 #include "measured.h"
@@ -53,7 +53,7 @@ static const struct {
 
 typedef struct {
 	leadr s;
-	lobe_microsurface surface;
+	lobe_smith surface;
 	lobe_vec3 w;
 	double k[3], v[3], sigma;
 	double expected[SIDE * SIDE], quadrature_error;
@@ -112,7 +112,7 @@ static double observe(histogram *h, const leadr *whiten, uint32_t stream)
 	for (uint32_t i = 0; i < SAMPLES; i++) {
 		const lobe_vec2 u = lobe_vec2_make(test_uniform(stream, 2 * (uint64_t)i),
 						   test_uniform(stream, 2 * (uint64_t)i + 1));
-		const lobe_vec3 m = lobe_microsurface_visible(h->surface, h->w, u);
+		const lobe_vec3 m = lobe_smith_visible(h->surface, h->w, u);
 		const double d[3] = {(double)m.x, (double)m.y, (double)m.z};
 		h->observed[bin_of(whiten, d)]++;
 		if (i % 64 == 0) {
@@ -120,10 +120,9 @@ static double observe(histogram *h, const leadr *whiten, uint32_t stream)
 			const double exact = leadr_d(&h->s, d) * c / h->sigma;
 			/* A cosine near 0 is a difference of terms to 1. */
 			if (c > 1e-3)
-				worst = larger(
-					worst,
-					fabs((double)lobe_microsurface_visible_pdf(h->surface, h->w, m) / exact - 1.0) *
-						c / leadr_steepness(&h->s, d));
+				worst = larger(worst,
+					       fabs((double)lobe_smith_visible_pdf(h->surface, h->w, m) / exact - 1.0) *
+						       c / leadr_steepness(&h->s, d));
 			else
 				TEST_ASSERT_TRUE(c > -1e-6 * h->k[2] - 3e-7);
 		}
@@ -162,10 +161,9 @@ static histogram scene_of(size_t i, leadr_kind kind)
 	const leadr s = {kind, scenes[i].ax, scenes[i].ay, scenes[i].rho, scenes[i].tx, scenes[i].ty};
 	const double c = scenes[i].cosine, sine = sqrt(1.0 - c * c);
 	h.s = s;
-	h.surface = lobe_microsurface_make(
-		lobe_distribution_make((lobe_uint)ndf_of(kind)),
-		lobe_linear_tilted(lobe_linear_correlated((float)s.ax, (float)s.ay, (float)s.rho), (float)s.tx,
-				   (float)s.ty));
+	h.surface = lobe_smith_make(lobe_distribution_make((lobe_uint)ndf_of(kind)),
+				    lobe_linear_tilted(lobe_linear_correlated((float)s.ax, (float)s.ay, (float)s.rho),
+						       (float)s.tx, (float)s.ty));
 	h.w = lobe_vec3_make((float)(sine * cos(scenes[i].phi)), (float)(sine * sin(scenes[i].phi)), (float)c);
 	h.k[0] = (double)h.w.x;
 	h.k[1] = (double)h.w.y;
