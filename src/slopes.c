@@ -172,7 +172,7 @@ static lobe_status mean_moments(lobe_slope_moments *mean, const lobe_slope_map *
 				 : lobe_fail(LOBE_ERROR_ARGUMENT, "map.texels: the squares of the slopes overflow");
 }
 
-lobe_status lobe_slope_measure(lobe_slope_stats *stats, const lobe_slope_map *map)
+lobe_status lobe_slope_stats_measure(lobe_slope_stats *stats, const lobe_slope_map *map)
 {
 	lobe_slope_moments raw, central;
 	if (!stats)

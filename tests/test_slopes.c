@@ -40,7 +40,7 @@ static lobe_slope_map heights(size_t width, size_t height, double (*f)(double, d
 static lobe_slope_stats measure(lobe_slope_map map)
 {
 	lobe_slope_stats s;
-	TEST_ASSERT_EQUAL_STRING("LOBE_OK", lobe_status_string(lobe_slope_measure(&s, &map)));
+	TEST_ASSERT_EQUAL_STRING("LOBE_OK", lobe_status_string(lobe_slope_stats_measure(&s, &map)));
 	return s;
 }
 
@@ -372,7 +372,7 @@ static void refused(const lobe_slope_map *map, const char *words)
 {
 	memset(&before, 0x5a, sizeof before);
 	after = before;
-	TEST_ASSERT_EQUAL_INT(LOBE_ERROR_ARGUMENT, lobe_slope_measure(&after, map));
+	TEST_ASSERT_EQUAL_INT(LOBE_ERROR_ARGUMENT, lobe_slope_stats_measure(&after, map));
 	TEST_ASSERT_TRUE_MESSAGE(strstr(lobe_error_message(), words) != NULL, lobe_error_message());
 	TEST_ASSERT_TRUE(memcmp(&before, &after, sizeof before) == 0);
 	lobe_slope_moments pyramid[200];
@@ -385,7 +385,7 @@ static void test_bad_input(void)
 	const lobe_slope_map good = heights(8, 8, noise);
 	lobe_slope_map m;
 	float normal[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-	TEST_ASSERT_EQUAL_INT(LOBE_ERROR_ARGUMENT, lobe_slope_measure(NULL, &good));
+	TEST_ASSERT_EQUAL_INT(LOBE_ERROR_ARGUMENT, lobe_slope_stats_measure(NULL, &good));
 	TEST_ASSERT_NOT_NULL(strstr(lobe_error_message(), "stats"));
 	refused(NULL, "map is NULL");
 #define WITH(change, words)                                                                                            \
@@ -421,7 +421,7 @@ static void test_bad_input(void)
 	m.kind = LOBE_SLOPES_NORMAL;
 	m.texels = normal;
 	m.width = m.height = 2;
-	TEST_ASSERT_EQUAL_INT(LOBE_OK, lobe_slope_measure(&after, &m));
+	TEST_ASSERT_EQUAL_INT(LOBE_OK, lobe_slope_stats_measure(&after, &m));
 	for (int k = 0; k < 4; k++) {
 		normal[11] = (const float[]){0.0f, -1.0f, NAN, INFINITY}[k];
 		refused(&m, "column 1, row 1");

@@ -264,7 +264,7 @@ static int study(const struct options *o, const struct wanted *w, uint32_t seed)
 	map.width = map.height = side;
 	map.texel_x = map.texel_y = TEXEL;
 	map.edge = LOBE_EDGE_CLAMP;
-	if (lobe_slope_measure(&stats, &map) != LOBE_OK ||
+	if (lobe_slope_stats_measure(&stats, &map) != LOBE_OK ||
 	    lobe_slope_level(&count, NULL, NULL, side, side, lobe_slope_levels(side, side)) != LOBE_OK) {
 		complain("slopes", lobe_error_message());
 		goto done;

@@ -4,7 +4,7 @@
  *	lobe_slope_map map = {.kind = LOBE_SLOPES_HEIGHT, .texels = heights, .width = 512, .height = 512,
  *			      .texel_x = 0.01, .texel_y = 0.01, .edge = LOBE_EDGE_WRAP};
  *	lobe_slope_stats stats;
- *	if (lobe_slope_measure(&stats, &map) == LOBE_OK)
+ *	if (lobe_slope_stats_measure(&stats, &map) == LOBE_OK)
  *		surface = lobe_slope_linear(stats);
  *
  * The five moments are those of LEAN mapping (Olano and Baker 2010, "LEAN mapping"): they are means, so that averaging
@@ -60,7 +60,7 @@ typedef struct {
 } lobe_slope_map;
 
 /* Of the whole map. Two passes: about the mean, nothing is lost however steep the mean is. */
-LOBE_API lobe_status lobe_slope_measure(lobe_slope_stats *stats, const lobe_slope_map *map);
+LOBE_API lobe_status lobe_slope_stats_measure(lobe_slope_stats *stats, const lobe_slope_map *map);
 
 /* --- pyramid ---------------------------------------------------------------------------------------------------- */
 
