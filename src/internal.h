@@ -131,6 +131,9 @@ void lobe_set_error_message(const char *format, ...)
  * L up to and including LOBE_INDEX_NONE, begin has LOBE_COUNT + 2 entries. material has been checked. (sort.c) */
 void lobe_sort_by_lobe(const lobe_scene *scene, const uint32_t *material, size_t n, uint32_t *order, size_t *begin);
 
+/* The table of microfacet/profile.h for a density of slopes f, up to a factor; untouched on failure. (profile_table.c) */
+lobe_status lobe_profile_make(float *table, lobe_profile_function f, void *context);
+
 /* Backends. lobe_native_open: threads 0 means all processors. (native.c, opencl.c) */
 lobe_status lobe_native_open(lobe_device **out, size_t threads);
 lobe_status lobe_opencl_count(size_t *count);
