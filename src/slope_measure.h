@@ -5,7 +5,7 @@
 #include "gauss_rule.h"
 #include "internal.h"
 
-enum { LOBE_PANEL_POINTS = 10 };
+enum { LOBE_PANEL_POINTS = 10, LOBE_MOMENTS = 5 };
 
 /* Steepness is told by u = log r throughout. Panel k holds the rings from edge[k] to edge[k + 1], as LOBE_PANEL_POINTS rings
  * of steepness r[] and share m[]; the shares of all panels and of the rings beyond the last edge add up to 1.
@@ -17,6 +17,7 @@ typedef struct {
 	double scale; /* what makes f a density of u: scale r^2 f(r) */
 	size_t panels;
 	double *edge, *above, *r, *m;
+	double (*moment)[LOBE_MOMENTS]; /* [k]: of panel k and all beyond, the sums of m r^(1 - 2j), j = 0, 1, ... */
 	double beyond, beyond_r;
 	double x[LOBE_GAUSS_MAX], w[LOBE_GAUSS_MAX];             /* the panels' rule */
 	double fine_x[LOBE_GAUSS_MAX], fine_w[LOBE_GAUSS_MAX];   /* one of LOBE_GAUSS_MAX points */

@@ -49,11 +49,12 @@ LOBE_FN lobe_real lobe_gtr_tail(lobe_distribution d, lobe_real t2)
 	const lobe_real all = lobe_gtr_one_minus_a(d);
 	const lobe_real inv = one / (one + t2);
 	const lobe_real a = -LOBE_R(2.0) * lobe_log(d.width);
-	const lobe_real l = -lobe_log1p(-all * inv);
-	/* l/a without 0/0, and a - l = log(A^-1 w). */
-	const lobe_real ratio = inv * lobe_log1p_over(-all * inv) * all / a;
-	const lobe_real share = all == LOBE_R(0.0) ? inv : ratio;
+	/* l and a - l = log(w/A), each from the side on which it does not cancel; l/a without 0/0. */
 	const lobe_real rest = lobe_log1p(t2 * inv * all / (d.width * d.width));
+	const int near = all * inv > LOBE_R(0.5);
+	const lobe_real l = near ? a - rest : -lobe_log1p(-all * inv);
+	const lobe_real far_share = inv * lobe_log1p_over(-all * inv) * all / a;
+	const lobe_real share = near ? l / a : (all == LOBE_R(0.0) ? inv : far_share);
 	return share * lobe_expm1_over(-b * l) / lobe_expm1_over(-b * a) * lobe_exp(-b * rest);
 }
 
