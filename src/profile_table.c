@@ -85,7 +85,9 @@ static double piece_error(const curve *c, const piece *p, double log_top)
 	}
 	worst = worst < 1.0 ? worst : 1.0;
 	const double depth = log_top - p->a.log_value;
-	const double share = c->hidden ? 0.0 : 1e-4 * width * width * width * width * exp(-0.5 * depth);
+	/* In the first piece steepness is a square root of the place. */
+	const double sums = p->a.l > 0.0 ? 1e-3 * pow(width, 4.0) : 1e-2 * pow(width, 1.5);
+	const double share = c->hidden ? 0.0 : sums * exp(-0.5 * depth);
 	return worst * exp(-0.1 * depth) * fmin(width / 0.02, 1.0) + share + 1e-12 * width;
 }
 

@@ -163,9 +163,9 @@ double ring_integral(const distribution_case *c, double r0, double r1, double (*
 		rule = gsl_integration_glfixed_table_alloc(16);
 	const double end = r1 < HUGE_VAL ? log(r1 - r0) : 1e3;
 	double sum = 0.0, y0 = -60.0;
-	/* Pieces of 1/2; of 1/50 where a ring may be. */
+	/* Pieces of 1/2; of 1/20 where a ring may be. */
 	while (y0 < end && y0 < 150.0) {
-		double y1 = y0 + (c->p22 == ring ? 0.02 : 0.5);
+		double y1 = y0 + (c->p22 == ring ? 0.05 : 0.5);
 		for (int i = 0; c->breaks[i] > 0.0; i++) {
 			const double y = c->breaks[i] > r0 ? log(c->breaks[i] - r0) : -1e3;
 			y1 = y > y0 + 1e-9 && y < y1 ? y : y1;
