@@ -15,7 +15,7 @@ typedef struct {
 	double l, log_value, slope;
 } knot;
 
-/* One of the two curves; t0: median of tan^2. */
+/* One of the two curves; t0: the square of the steepness that its places are counted in. */
 typedef struct {
 	const lobe_slope_measure *s;
 	double t0;
@@ -205,13 +205,13 @@ static lobe_status make_rules(const curve *tail, const piece *pieces, float *wor
 	return LOBE_OK;
 }
 
-/* tan^2 of tail 1/2. */
-static double median(const lobe_slope_measure *s)
+/* tan^2 of tail q. */
+static double quantile(const lobe_slope_measure *s, double q)
 {
 	double lo = s->edge[0], hi = s->edge[s->panels];
 	for (int i = 0; i < 60; i++) {
 		const double middle = 0.5 * (lo + hi);
-		if (lobe_slope_tail(s, middle) > 0.5)
+		if (lobe_slope_tail(s, middle) > q)
 			lo = middle;
 		else
 			hi = middle;
@@ -221,15 +221,15 @@ static double median(const lobe_slope_measure *s)
 
 static lobe_status build(const lobe_slope_measure *s, piece *pieces, float *words)
 {
-	const double t0 = median(s);
-	if (!(t0 > 1e-24 && t0 < 1e24))
+	const double t0 = quantile(s, 15.0 / 16.0), r0 = sqrt(quantile(s, 0.5));
+	if (!(t0 > 1e-24 && r0 < 1e12))
 		return lobe_fail(LOBE_ERROR_PARAMETER, "the median of tan_theta is %g: rescale f to a width of about 1",
-				 sqrt(t0));
-	const curve tail = {s, t0, 0}, hidden = {s, t0, 1};
+				 r0);
+	const curve tail = {s, t0, 0}, hidden = {s, r0 * r0, 1};
 	words[0] = (float)LOBE_PROFILE_WORDS;
 	words[LOBE_PROFILE_T0] = (float)t0;
 	words[LOBE_PROFILE_INV_T0] = (float)(1.0 / t0);
-	words[LOBE_PROFILE_INV_R0] = (float)(1.0 / sqrt(t0));
+	words[LOBE_PROFILE_INV_R0] = (float)(1.0 / r0);
 	fit(&hidden, pieces, LOBE_PROFILE_LEAVES);
 	write_curve(pieces, words + LOBE_PROFILE_HIDDEN);
 	fit(&tail, pieces, LOBE_PROFILE_LEAVES);

@@ -6,9 +6,9 @@
  * so that hidden(v) = s h(|v.z|/s) with h(z) = int_z^inf r k(z/r) dF(r), of one variable: all that the masking of any
  * distribution of slopes is.
  *
- * The table holds Q as a function of X = 1 + r^2/t0 and h as one of X = 1 + z/sqrt(t0), where t0 is the median of tan^2.
- * Both fall from their largest value, often over tens of decades: what is interpolated, by cubic polynomials with exact
- * slopes at 129 knots that the host places, is the logarithm of either in the logarithm of X. There powers and
+ * The table holds Q as a function of X = 1 + r^2/t0 and h as one of X = 1 + z/r0, where r0 is the median of r, and t0 is
+ * r^2 of tail 15/16, so that a narrow peak on a broad base is resolved. Both fall from their largest value, often over tens of decades: what is interpolated, by cubic polynomials with exact
+ * slopes at 257 knots that the host places, is the logarithm of either in the logarithm of X. There powers and
  * exponentials are (nearly) straight, and relative accuracy holds however small a value is. Beyond the last knot both go
  * on as powers.
  *
@@ -23,13 +23,13 @@
 
 /* Layout, in words. A curve is LOBE_PROFILE_LEAVES + 1 knots; rules: profile_visible.h. */
 enum {
-	LOBE_PROFILE_LEVELS = 7,
+	LOBE_PROFILE_LEVELS = 8,
 	LOBE_PROFILE_LEAVES = 1 << LOBE_PROFILE_LEVELS,
 	LOBE_PROFILE_GAUSS = 8,
 
-	LOBE_PROFILE_T0 = 1,     /* median of tan^2 */
+	LOBE_PROFILE_T0 = 1,
 	LOBE_PROFILE_INV_T0 = 2, /* 1/t0 */
-	LOBE_PROFILE_INV_R0 = 3, /* 1/sqrt(t0) */
+	LOBE_PROFILE_INV_R0 = 3, /* 1/r0 */
 	LOBE_PROFILE_TAIL = 4,
 
 	/* One knot and the piece from it to the next: place X and value V there; the piece's rise of log X; the falls of
