@@ -64,8 +64,8 @@ LOBE_FN lobe_real lobe_gamma_ratio(lobe_real x)
 }
 
 /* For comparison, hidden(v) by the rational fit that the paper gives for the second term of Lambda. Some programs carry a
- * wrong sign in front of 14.402, which makes Lambda negative. The fit is absolute: measured .011 of Lambda for
- * gamma = 1.6 to 10 and cot theta .05 to 5, and below 0 where Lambda is small. */
+ * wrong sign in front of 14.402, which makes Lambda negative. The fit is absolute: measured
+ * .0071 of Lambda for gamma = 1.6 to 10 and cot theta .05 to 5, and below 0 where Lambda is small. */
 LOBE_FN lobe_real lobe_student_t_hidden_fit(lobe_distribution d, lobe_vec3 v)
 {
 	const lobe_real g = d.exponent;
