@@ -25,10 +25,7 @@ static double gtr(const distribution_case *c, double r)
 }
 
 /* Ribardiere et al. 2017. */
-static double student_t(const distribution_case *c, double r)
-{
-	return exp(-c->a * log1p(r * r / (c->a - 1.0))) / PI;
-}
+static double student_t(const distribution_case *c, double r) { return exp(-c->a * log1p(r * r / (c->a - 1.0))) / PI; }
 
 /* User-given ones, normalised by hand. A broad and a narrow Gaussian: half each. */
 static double two_gaussians(const distribution_case *c, double r)

@@ -97,7 +97,9 @@ typedef struct {
 
 static double bound_of(const distribution_case *c, bounds b)
 {
-	return c->d.ndf != LOBE_NDF_TABULATED ? b.closed : strcmp(c->name, "narrow ring .5") != 0 ? b.tabulated : b.narrow;
+	return c->d.ndf != LOBE_NDF_TABULATED           ? b.closed
+	       : strcmp(c->name, "narrow ring .5") != 0 ? b.tabulated
+							: b.narrow;
 }
 
 /* bulk: where the value is above 1e-4 of its largest; all: down to 1e-33 of it. */

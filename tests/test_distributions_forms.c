@@ -87,7 +87,9 @@ static void test_powers(void)
 	TEST_ASSERT_TRUE(lobe_log1p_over(0.0f) == 1.0f && lobe_expm1_over(0.0f) == 1.0f);
 	double ratio = 0.0;
 	for (float x = 1.0f; x < 1e6f; x *= 1.01f)
-		ratio = worse(ratio, fabs((double)lobe_gamma_ratio(x) / exp(lgamma((double)x) - lgamma((double)x + 0.5)) - 1.0));
+		ratio = worse(
+			ratio,
+			fabs((double)lobe_gamma_ratio(x) / exp(lgamma((double)x) - lgamma((double)x + 0.5)) - 1.0));
 	measured("Gamma(x)/Gamma(x + 1/2): relative", ratio, 2e-6);
 }
 
@@ -99,11 +101,13 @@ static void assert_ggx(const char *what, lobe_distribution d, float width)
 	double density = 0.0, hidden = 0.0, tail = 0.0, back = 0.0, visible = 0.0;
 	for (int i = 0; i < VIEWS; i++) {
 		const lobe_vec3 v = view(i), wide = lobe_vec3_make(width * v.x, 0.0f, v.z);
-		const lobe_vec3 h = lobe_vec3_make(1.0f, 0.0f, width * v.z), wide_h = lobe_vec3_make(1.0f / width, 0.0f, width * v.z);
+		const lobe_vec3 h = lobe_vec3_make(1.0f, 0.0f, width * v.z),
+				wide_h = lobe_vec3_make(1.0f / width, 0.0f, width * v.z);
 		const lobe_facet_density g = lobe_ggx_density(wide_h);
 		const double exact = (double)g.inv * (double)g.inv / ((double)width * (double)width);
 		density = worse(density, fabs(pi_d(d, h) / exact - 1.0));
-		hidden = worse(hidden, fabs((double)lobe_distribution_hidden(d, v) / (double)lobe_ggx_hidden(wide) - 1.0));
+		hidden = worse(hidden,
+			       fabs((double)lobe_distribution_hidden(d, v) / (double)lobe_ggx_hidden(wide) - 1.0));
 		const float t2 = v.z * v.z * 0x1p-10f, q = lobe_ggx_tail(t2 / (width * width));
 		tail = worse(tail, fabs((double)lobe_distribution_tail(d, t2) / (double)q - 1.0));
 		const double t2_back = (double)lobe_distribution_tail_inverse(d, q);
@@ -113,7 +117,8 @@ static void assert_ggx(const char *what, lobe_distribution d, float width)
 		if (i % 100 == 50) {
 			double a = 0.0, b = 0.0;
 			for (int n = 0; n < 4096; n++) {
-				const lobe_vec2 u = lobe_vec2_make((float)(n % 64) / 64.0f + 0x1p-7f, (float)(n / 64) / 64.0f + 0x1p-7f);
+				const lobe_vec2 u = lobe_vec2_make((float)(n % 64) / 64.0f + 0x1p-7f,
+								   (float)(n / 64) / 64.0f + 0x1p-7f);
 				const lobe_vec3 m = lobe_distribution_visible(d, v, u), e = lobe_ggx_visible(wide, u);
 				a += (double)m.z / sqrt((double)lobe_dot(m, m)) / 4096.0;
 				const double ex = (double)(width * e.x), ey = (double)(width * e.y), ez = (double)e.z;
@@ -176,7 +181,10 @@ static void test_phong_is_student_t(void)
 			const lobe_vec3 v = view(i);
 			const float h = lobe_distribution_hidden(p, v);
 			if (h > 1e-8f)
-				worst = worse(worst, fabs((double)lobe_distribution_hidden(t, lobe_vec3_make(a, 0.0f, v.z)) / (double)h - 1.0));
+				worst = worse(worst,
+					      fabs((double)lobe_distribution_hidden(t, lobe_vec3_make(a, 0.0f, v.z)) /
+							   (double)h -
+						   1.0));
 		}
 		TEST_ASSERT_TRUE(fabs((double)lobe_phong_exponent(a) - (double)n) <= 1e-6 * ((double)n + 1.0));
 	}
@@ -188,7 +196,8 @@ static void test_phong_is_student_t(void)
 static double exact_lambda(double g, double z)
 {
 	const double s2 = g - 1.0, s = sqrt(s2), c = exp(lgamma(g - 0.5) - lgamma(g)) * s2 / (sqrt(PI) * s);
-	return c * s2 * pow(1.0 + z * z / s2, 1.5 - g) / ((2.0 * g - 3.0) * z) - gsl_cdf_tdist_Q(z * sqrt(2.0 * g - 2.0) / s, 2.0 * g - 2.0);
+	return c * s2 * pow(1.0 + z * z / s2, 1.5 - g) / ((2.0 * g - 3.0) * z) -
+	       gsl_cdf_tdist_Q(z * sqrt(2.0 * g - 2.0) / s, 2.0 * g - 2.0);
 }
 
 static void test_student_t_lambda(void)
@@ -201,7 +210,9 @@ static void test_student_t_lambda(void)
 			const lobe_vec3 v = view(i);
 			const double exact = exact_lambda((double)gammas[k], (double)v.z);
 			if (exact > 1e-6)
-				worst = worse(worst, fabs((double)lobe_distribution_hidden(d, v) / (exact * (double)v.z) - 1.0));
+				worst = worse(
+					worst,
+					fabs((double)lobe_distribution_hidden(d, v) / (exact * (double)v.z) - 1.0));
 		}
 	}
 	measured("Student-T: Lambda against its closed form: relative", worst, 1e-5);
@@ -216,14 +227,17 @@ static void test_gtr_closed_against_table(void)
 			TEST_ASSERT_TRUE(lobe_gtr_is_closed(d));
 			for (int i = 0; i < VIEWS; i++) {
 				const double closed = (double)lobe_gtr_hidden_closed(d, view(i));
-				worst = worse(worst, fabs((double)lobe_profile_hidden(d.table, view(i)) / closed - 1.0));
+				worst = worse(worst,
+					      fabs((double)lobe_profile_hidden(d.table, view(i)) / closed - 1.0));
 			}
 			if (alpha > 0.9f)
 				continue;
 			/* From the closed form to the table of the next gamma is no jump. */
 			lobe_distribution near = gtr(gamma + 1e-4f, alpha);
 			for (int i = 0; i < VIEWS; i++)
-				jump = worse(jump, fabs((double)lobe_distribution_hidden(near, view(i)) / (double)lobe_gtr_hidden_closed(d, view(i)) - 1.0));
+				jump = worse(jump, fabs((double)lobe_distribution_hidden(near, view(i)) /
+								(double)lobe_gtr_hidden_closed(d, view(i)) -
+							1.0));
 		}
 	}
 	measured("GTR 1 to 4: hidden by table against closed form: relative", worst, 1e-5);
@@ -244,8 +258,11 @@ static void test_gtr_limits(void)
 		alpha_step = worse(alpha_step, fabs((double)b.norm - 1.0));
 		for (int i = 0; i < VIEWS; i++) {
 			const float t2 = view(i).z, q = 1.0f / (1.0f + t2);
-			alpha_step = worse(alpha_step, fabs((double)lobe_gtr_tail(b, t2) / (double)lobe_gtr_tail(a, t2) - 1.0));
-			alpha_step = worse(alpha_step, fabs((double)lobe_gtr_tail_inverse(b, q) / (double)lobe_gtr_tail_inverse(a, q) - 1.0));
+			alpha_step = worse(alpha_step,
+					   fabs((double)lobe_gtr_tail(b, t2) / (double)lobe_gtr_tail(a, t2) - 1.0));
+			alpha_step = worse(
+				alpha_step,
+				fabs((double)lobe_gtr_tail_inverse(b, q) / (double)lobe_gtr_tail_inverse(a, q) - 1.0));
 		}
 	}
 	measured("GTR: norm at gamma = 1 +- 1 ulp against 1: relative", gamma_step, 3e-6);
@@ -263,7 +280,8 @@ static double shape_difference(float gamma)
 	double worst = 0.0;
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_distribution_gtr(&wide, other, LOBE_PROFILE_WORDS, gamma, b));
 	for (float x = 0.1f; x < 3.0f; x += 0.1f) {
-		const double n = (double)lobe_distribution_hidden(narrow, lobe_vec3_make(1.0f, 0.0f, a * x)) / (double)a;
+		const double n =
+			(double)lobe_distribution_hidden(narrow, lobe_vec3_make(1.0f, 0.0f, a * x)) / (double)a;
 		const double w = (double)lobe_distribution_hidden(wide, lobe_vec3_make(1.0f, 0.0f, b * x)) / (double)b;
 		worst = worse(worst, fabs(n / w - 1.0));
 		const double nd = pi_d(narrow, lobe_vec3_make(a * x, 0.0f, 1.0f)) * (double)(a * a);
@@ -334,7 +352,8 @@ static void test_student_t_fit(void)
 	TEST_ASSERT_TRUE(worst_slipped > 5.0 * worst && least_slipped < -0.05);
 	/* At gamma = 2 (GGX) and z = .5 and 1, as others have found it. */
 	const lobe_distribution d = student_t(2.0f);
-	TEST_ASSERT_TRUE(fabs((double)lobe_student_t_hidden_fit(d, lobe_vec3_make(1.0f, 0.0f, 0.5f)) / 0.5 - 0.6212) < 1e-3);
+	TEST_ASSERT_TRUE(fabs((double)lobe_student_t_hidden_fit(d, lobe_vec3_make(1.0f, 0.0f, 0.5f)) / 0.5 - 0.6212) <
+			 1e-3);
 	TEST_ASSERT_TRUE(fabs((double)lobe_student_t_hidden_fit(d, lobe_vec3_make(1.0f, 0.0f, 1.0f)) - 0.2133) < 1e-3);
 }
 
@@ -357,7 +376,8 @@ static double one(void *context, double r)
 static void test_planted_normalisation(void)
 {
 	distribution_case c = *distribution_case_named("GTR 3, .1");
-	const double right = ring_integral(&c, 0.0, HUGE_VAL, one, NULL), wrong = ring_integral(&c, 0.0, HUGE_VAL, gtr_off_by_one, &c);
+	const double right = ring_integral(&c, 0.0, HUGE_VAL, one, NULL),
+		     wrong = ring_integral(&c, 0.0, HUGE_VAL, gtr_off_by_one, &c);
 	printf("  GTR 3, .1: integral %.9f, planted %.4f\n", right, wrong);
 	TEST_ASSERT_TRUE(fabs(right - 1.0) < 1e-9 && fabs(wrong - 1.0) > 0.1);
 }
@@ -369,7 +389,8 @@ static void test_double(void)
 	double all[4] = {0.0, 0.0, 0.0, 0.0}, hard[4] = {0.0, 0.0, 0.0, 0.0};
 	for (size_t i = 0; i < count; i++) {
 		const lobe_distribution d = cases[i].d;
-		const double_distribution dd = {d.ndf, (double)d.exponent, (double)d.width, (double)d.norm, (const float *)(uintptr_t)lobe_table_address(d.table)};
+		const double_distribution dd = {d.ndf, (double)d.exponent, (double)d.width, (double)d.norm,
+						(const float *)(uintptr_t)lobe_table_address(d.table)};
 		const double median = sqrt(double_distribution_tail_inverse(dd, 0.5));
 		double density = 0.0, hidden = 0.0, tail = 0.0, visible = 0.0;
 		for (uint64_t k = 0; k < 2000; k++) {
@@ -383,20 +404,31 @@ static void test_double(void)
 			if (q > 1e-10 && e > 1e-10)
 				density = worse(density, fabs(pi_d(d, lobe_vec3_make(z, 0.0f, 1.0f)) / e - 1.0));
 			if (s > 1e-10 * median)
-				hidden = worse(hidden, fabs((double)lobe_distribution_hidden(d, lobe_vec3_make(1.0f, 0.0f, z)) / s - 1.0));
+				hidden = worse(
+					hidden,
+					fabs((double)lobe_distribution_hidden(d, lobe_vec3_make(1.0f, 0.0f, z)) / s -
+					     1.0));
 			if (q > 1e-10)
 				tail = worse(tail, fabs((double)lobe_distribution_tail(d, z * z) / q - 1.0));
 			/* Angle between the normals; the last of u is where either may differ by all that is steeper. */
 			double_distribution_visible(dd, v, ud, m);
-			const lobe_vec3 f = lobe_distribution_visible(d, lobe_vec3_make(1.0f, 0.0f, z), lobe_vec2_make(u[0], u[1]));
-			const double cx = (double)f.y * m[2] - (double)f.z * m[1], cy = (double)f.z * m[0] - (double)f.x * m[2], cz = (double)f.x * m[1] - (double)f.y * m[0];
-			const double off = sqrt(cx * cx + cy * cy + cz * cz) / sqrt((double)lobe_dot(f, f) * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]));
+			const lobe_vec3 f =
+				lobe_distribution_visible(d, lobe_vec3_make(1.0f, 0.0f, z), lobe_vec2_make(u[0], u[1]));
+			const double cx = (double)f.y * m[2] - (double)f.z * m[1],
+				     cy = (double)f.z * m[0] - (double)f.x * m[2],
+				     cz = (double)f.x * m[1] - (double)f.y * m[0];
+			const double off = sqrt(cx * cx + cy * cy + cz * cz) /
+					   sqrt((double)lobe_dot(f, f) * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]));
 			if (u[0] > 1e-3f && u[0] < 0.999f)
 				visible = worse(visible, off / fmin(median, 1.0));
 		}
-		printf("  %-16s density %.2g, hidden %.2g, tail %.2g, visible %.2g of the median\n", cases[i].name, density, hidden, tail, visible);
+		printf("  %-16s density %.2g, hidden %.2g, tail %.2g, visible %.2g of the median\n", cases[i].name,
+		       density, hidden, tail, visible);
 		/* Where log Q falls by 100 and more for each step of log X, so does the error of X grow. */
-		double *worst = cases[i].p22(&cases[i], 0.3 * median) > 1e-3 * cases[i].p22(&cases[i], median) && cases[i].smooth ? all : hard;
+		double *worst = cases[i].p22(&cases[i], 0.3 * median) > 1e-3 * cases[i].p22(&cases[i], median) &&
+						cases[i].smooth
+					? all
+					: hard;
 		worst[0] = worse(worst[0], density);
 		worst[1] = worse(worst[1], hidden);
 		worst[2] = worse(worst[2], tail);

@@ -102,7 +102,8 @@ static double ring_error(const distribution_case *c, lobe_distribution d, lobe_v
 	for (int i = 0; i < RINGS; i++) {
 		const float u = ring_u(i);
 		const double r = steepness(lobe_distribution_visible(d, v, lobe_vec2_make(u, 0.3f)));
-			const double steeper = seen_between(&q, fmin(r, FLAT), HUGE_VAL) / all, off = steeper - (1.0 - (double)u);
+		const double steeper = seen_between(&q, fmin(r, FLAT), HUGE_VAL) / all,
+			     off = steeper - (1.0 - (double)u);
 		worst = worse(worst, r < FLAT ? fabs(off) : fmax(-off, 0.0));
 	}
 	return worst;
@@ -152,8 +153,14 @@ static void test_azimuth(void)
 			const lobe_sincos a = lobe_visible_azimuth(height, 1.0f, u);
 			const double psi = atan2((double)a.s, (double)a.c);
 			/* Below the horizon the difference of two nearly equal terms needs care here too. */
-			const double p = fabs(psi), deficit = p < 0.1 ? p * p * p * (1.0 / 6.0 - p * p * (1.0 / 120.0 - p * p / 5040.0)) : p - sin(p);
-			const double e = end < 0.1 ? end * end * end * (1.0 / 6.0 - end * end * (1.0 / 120.0 - end * end / 5040.0)) : end - sin(end);
+			const double p = fabs(psi),
+				     deficit =
+					     p < 0.1 ? p * p * p * (1.0 / 6.0 - p * p * (1.0 / 120.0 - p * p / 5040.0))
+						     : p - sin(p);
+			const double e =
+				end < 0.1
+					? end * end * end * (1.0 / 6.0 - end * end * (1.0 / 120.0 - end * end / 5040.0))
+					: end - sin(end);
 			const double up = 1.0 + (double)height;
 			const double share = (up * p - deficit) / (up * end - e);
 			const double cdf = 0.5 + (psi < 0.0 ? -0.5 : 0.5) * share;
@@ -176,7 +183,8 @@ static void test_order(void)
 			double before = 0.0;
 			for (int n = 0; n < 1000; n++) {
 				const lobe_vec2 u = lobe_vec2_make((float)n / 1000.0f, 0.5f);
-				const double r = steepness(lobe_distribution_visible(cases[i].d, view(&cases[i], k), u));
+				const double r =
+					steepness(lobe_distribution_visible(cases[i].d, view(&cases[i], k), u));
 				if (before > 0.0)
 					back = worse(back, (before - r) / before);
 				before = r;
@@ -194,11 +202,12 @@ static int is_direction(lobe_vec3 m)
 
 static void test_extremes(void)
 {
-	static const float u[] = {0.0f, 0x1p-149f, 0x1p-24f, 0.25f, 0x1.fffffep-2f, 0.5f, 0.75f, 0x1.fffffcp-1f, 0x1.fffffep-1f};
+	static const float u[] = {0.0f, 0x1p-149f, 0x1p-24f,       0.25f,         0x1.fffffep-2f,
+				  0.5f, 0.75f,     0x1.fffffcp-1f, 0x1.fffffep-1f};
 	static const lobe_vec3 v[] = {
-		{0.0f, 0.0f, 1.0f},  {1.0f, 0.0f, 0.0f},     {0.0f, -1.0f, -0.0f},  {1e-20f, 1e-20f, 1.0f},
-		{1e-6f, 0.0f, 1.0f}, {0.6f, 0.0f, 0.8f},     {1.0f, 0.0f, 1e-6f},   {1.0f, 0.0f, -1e-6f},
-		{0.8f, 0.0f, -0.6f}, {1e-6f, 0.0f, -1.0f},   {0.0f, 0.0f, -1.0f},   {1e-4f, 1e-4f, 0x1p-20f},
+		{0.0f, 0.0f, 1.0f},   {1.0f, 0.0f, 0.0f},     {0.0f, -1.0f, -0.0f},  {1e-20f, 1e-20f, 1.0f},
+		{1e-6f, 0.0f, 1.0f},  {0.6f, 0.0f, 0.8f},     {1.0f, 0.0f, 1e-6f},   {1.0f, 0.0f, -1e-6f},
+		{0.8f, 0.0f, -0.6f},  {1e-6f, 0.0f, -1.0f},   {0.0f, 0.0f, -1.0f},   {1e-4f, 1e-4f, 0x1p-20f},
 		{1.0f, 1.0f, 1e-30f}, {1e-12f, 0.0f, 1e-12f}, {1e-4f, 0.0f, -1e-6f}, {0.0f, 1e-10f, 0.1f}};
 	const size_t us = sizeof u / sizeof *u;
 	uint32_t bad = 0;
@@ -208,7 +217,8 @@ static void test_extremes(void)
 			const float hidden = lobe_distribution_hidden(d, v[k]);
 			bad += !(hidden >= 0.0f && hidden <= LOBE_REAL_MAX);
 			for (size_t n = 0; n < us * us; n++) {
-				const lobe_vec3 m = lobe_distribution_visible(d, v[k], lobe_vec2_make(u[n / us], u[n % us]));
+				const lobe_vec3 m =
+					lobe_distribution_visible(d, v[k], lobe_vec2_make(u[n / us], u[n % us]));
 				if (!is_direction(m)) {
 					if (bad++ < 10)
 						printf("  %s: view %zu, u %g %g: %g %g %g\n", cases[i].name, k,

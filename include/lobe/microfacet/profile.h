@@ -99,8 +99,7 @@ LOBE_FN lobe_real lobe_profile_fall_rate(lobe_profile_piece c, lobe_real p)
 	const lobe_real q = lobe_min(p, LOBE_R(1.0));
 	const lobe_real cubic = (c.slope0 + c.slope1) - (c.fall + c.fall);
 	const lobe_real square = (c.fall - c.slope0) - cubic;
-	const lobe_real rate =
-		lobe_fma(q, lobe_fma(q, LOBE_R(3.0) * cubic, square + square), c.slope0);
+	const lobe_real rate = lobe_fma(q, lobe_fma(q, LOBE_R(3.0) * cubic, square + square), c.slope0);
 	return lobe_max(rate, LOBE_R(0.0));
 }
 
@@ -165,7 +164,8 @@ LOBE_FN lobe_facet_density lobe_profile_density(lobe_table t, lobe_vec3 h)
 	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y);
 	const lobe_real z2 = h.z * h.z;
 	const lobe_real x = lobe_profile_x(t, r2 / z2);
-	const lobe_profile_piece c = lobe_profile_piece_at(t, LOBE_PROFILE_TAIL, lobe_profile_find(t, LOBE_PROFILE_TAIL, x));
+	const lobe_profile_piece c =
+		lobe_profile_piece_at(t, LOBE_PROFILE_TAIL, lobe_profile_find(t, LOBE_PROFILE_TAIL, x));
 	const lobe_real p = lobe_profile_place(c, x);
 	const lobe_real rate = lobe_profile_fall_rate(c, p) / c.width;
 	const lobe_real inv_t0 = lobe_table_fetch(t, LOBE_PROFILE_INV_T0);

@@ -76,17 +76,25 @@ LOBE_FN lobe_real lobe_student_t_hidden_fit(lobe_distribution d, lobe_vec3 v)
 	const lobe_real root = lobe_sqrt(g - one);
 
 	const lobe_real n21 = lobe_fma(lobe_fma(LOBE_R(4.892), z, LOBE_R(2.655)), z, LOBE_R(1.066)) * z;
-	const lobe_real d21 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(4.418), z, LOBE_R(4.305)), z, LOBE_R(2.969)), z, LOBE_R(1.038));
-	const lobe_real n22 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(-2.745), g, LOBE_R(20.574)), g, LOBE_R(-27.145)), g, LOBE_R(14.402));
-	const lobe_real d22 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(29.938), g, LOBE_R(-84.341)), g, LOBE_R(86.567)), g, LOBE_R(-30.612));
-	const lobe_real n23 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(93.268), g, LOBE_R(-299.305)), g, LOBE_R(324.987)), g, LOBE_R(-129.404));
-	const lobe_real d23 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(86.064), g, LOBE_R(-245.663)), g, LOBE_R(256.006)), g, LOBE_R(-92.609));
-	const lobe_real n24 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(5.223), z, LOBE_R(-0.623)), z, LOBE_R(6.074)), z, LOBE_R(6.537));
-	const lobe_real d24 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(6.347), z, LOBE_R(-3.218)), z, LOBE_R(6.103)), z, LOBE_R(6.538));
+	const lobe_real d21 =
+		lobe_fma(lobe_fma(lobe_fma(LOBE_R(4.418), z, LOBE_R(4.305)), z, LOBE_R(2.969)), z, LOBE_R(1.038));
+	const lobe_real n22 =
+		lobe_fma(lobe_fma(lobe_fma(LOBE_R(-2.745), g, LOBE_R(20.574)), g, LOBE_R(-27.145)), g, LOBE_R(14.402));
+	const lobe_real d22 =
+		lobe_fma(lobe_fma(lobe_fma(LOBE_R(29.938), g, LOBE_R(-84.341)), g, LOBE_R(86.567)), g, LOBE_R(-30.612));
+	const lobe_real n23 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(93.268), g, LOBE_R(-299.305)), g, LOBE_R(324.987)), g,
+				       LOBE_R(-129.404));
+	const lobe_real d23 = lobe_fma(lobe_fma(lobe_fma(LOBE_R(86.064), g, LOBE_R(-245.663)), g, LOBE_R(256.006)), g,
+				       LOBE_R(-92.609));
+	const lobe_real n24 =
+		lobe_fma(lobe_fma(lobe_fma(LOBE_R(5.223), z, LOBE_R(-0.623)), z, LOBE_R(6.074)), z, LOBE_R(6.537));
+	const lobe_real d24 =
+		lobe_fma(lobe_fma(lobe_fma(LOBE_R(6.347), z, LOBE_R(-3.218)), z, LOBE_R(6.103)), z, LOBE_R(6.538));
 	const lobe_real second = n21 / d21 * lobe_fma(n23 / d23, n24 / d24, n22 / d22);
 
 	/* The first term times z, so that it holds at the horizon: (gamma - 1)^(3/2) (1 + z^2/(gamma - 1))^(3/2 - gamma). */
-	const lobe_real first = (g - one) * root * lobe_decay(z * z * d.norm, g - LOBE_R(1.5)) / (LOBE_R(2.0) * g - LOBE_R(3.0));
+	const lobe_real first =
+		(g - one) * root * lobe_decay(z * z * d.norm, g - LOBE_R(1.5)) / (LOBE_R(2.0) * g - LOBE_R(3.0));
 	const lobe_real c = lobe_gamma_ratio(g - LOBE_R(0.5)) * LOBE_R(0.564189583547756287);
 	return s * (c * lobe_fma(root * z, second, first) - LOBE_R(0.5) * z);
 }
