@@ -10,6 +10,9 @@
 #define TAIL_X_MAX   1e34
 #define HIDDEN_X_MAX 1e10
 
+/* Pieces narrower than a few steps of a float's log X tell nothing apart. */
+#define NARROWEST 1e-6
+
 /* log value and its fall at a place, both as functions of l = log X. */
 typedef struct {
 	double l, log_value, slope;
@@ -70,6 +73,8 @@ typedef struct {
 static double piece_error(const curve *c, const piece *p, double log_top)
 {
 	const double width = p->b.l - p->a.l, fall = p->a.log_value - p->b.log_value;
+	if (width < NARROWEST)
+		return 0.0;
 	const double m0 = limited(p->a.slope, width, fall), m1 = limited(p->b.slope, width, fall);
 	const double cubic = m0 + m1 - 2.0 * fall, square = fall - m0 - cubic;
 	double worst = 0.0;
@@ -91,27 +96,23 @@ static double piece_error(const curve *c, const piece *p, double log_top)
 	return worst * exp(-0.1 * depth) * fmin(width / 0.02, 1.0) + share + 1e-12 * width;
 }
 
-/* The steepest u whose tail is LOWEST or more. */
-static double last_u(const lobe_slope_measure *s)
+/* The largest place where the curve has not yet fallen to LOWEST of its largest value. */
+static double last_l(const curve *c)
 {
-	double lo = s->edge[0], hi = s->edge[s->panels];
-	if (lobe_slope_tail(s, hi) >= LOWEST)
+	const double log_lowest = knot_at(c, 0.0).log_value + log(LOWEST);
+	double lo = 0.0, hi = log(c->hidden ? HIDDEN_X_MAX : TAIL_X_MAX);
+	const double edge = l_of_r(c, c->s->edge[c->s->panels]);
+	hi = edge < hi ? edge : hi;
+	if (knot_at(c, hi).log_value >= log_lowest)
 		return hi;
 	for (int i = 0; i < 60; i++) {
 		const double middle = 0.5 * (lo + hi);
-		if (lobe_slope_tail(s, middle) >= LOWEST)
+		if (knot_at(c, middle).log_value >= log_lowest)
 			lo = middle;
 		else
 			hi = middle;
 	}
 	return lo;
-}
-
-static double last_l(const curve *c)
-{
-	const double x_max = c->hidden ? HIDDEN_X_MAX : TAIL_X_MAX;
-	const double end = l_of_r(c, last_u(c->s));
-	return end < log(x_max) ? end : log(x_max);
 }
 
 /* Splits the worst piece until there are enough, in order. */

@@ -51,6 +51,13 @@ static double steps(const distribution_case *c, double r)
 	return r < c->a ? 1.0 / norm : r < c->b ? 0.2 / norm : 0.0;
 }
 
+/* A disk, nothing, and a step: 1 up to a, 1/2 from b to b + a. */
+static double gap(const distribution_case *c, double r)
+{
+	const double norm = PI * (c->a * c->a + 0.5 * c->a * (2.0 * c->b + c->a));
+	return r < c->a ? 1.0 / norm : r > c->b && r < c->b + c->a ? 0.5 / norm : 0.0;
+}
+
 static distribution_case cases[] = {
 	{"Phong 0", phong, 0, 0, {0}, 1, {0}},
 	{"Phong 5", phong, 5, 0, {0}, 1, {0}},
@@ -80,6 +87,7 @@ static distribution_case cases[] = {
 	{"ring .5", ring, 0.5, 50, {0}, 1, {0}},
 	{"narrow ring .5", ring, 0.5, 5000, {0}, 1, {0}},
 	{"steps", steps, 0.7, 1.5, {0.7, 1.5, 0}, 0, {0}},
+	{"gap", gap, 0.25, 0.625, {0.25, 0.625, 0.875, 0}, 0, {0}},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 

@@ -125,8 +125,8 @@ static void test_rings(void)
 		else
 			rough = worse(rough, worst);
 	}
-	measured("cumulative distribution of the ring, smooth densities", smooth, 1e-5);
-	measured("cumulative distribution of the ring, with jumps", rough, 1e-5);
+	measured("cumulative distribution of the ring, smooth densities", smooth, 3e-6);
+	measured("cumulative distribution of the ring, with jumps", rough, 3e-6);
 	measured("cumulative distribution of the ring, narrow ring", narrow, 4e-5);
 	/* Student-T of gamma 3 with the table of gamma 2. */
 	const distribution_case *three = distribution_case_named("Student-T 3");

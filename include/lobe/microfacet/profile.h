@@ -12,7 +12,7 @@
  * exponentials are (nearly) straight, and relative accuracy holds however small a value is. Beyond the last knot both go
  * on as powers.
  *
- * Measured by tests/test_distributions.c, largest error over Phong, GTR, Student-T and user-given densities: see there. */
+ * Errors: phong.h, gtr.h, student_t.h, tabulated.h; all measured by tests/test_distributions.c. */
 #ifndef LOBE_MICROFACET_PROFILE_H
 #define LOBE_MICROFACET_PROFILE_H
 
@@ -153,7 +153,7 @@ LOBE_FN lobe_real lobe_profile_hidden(lobe_table t, lobe_vec3 v)
 {
 	const lobe_real s = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
 	const lobe_real z = lobe_abs(v.z) * lobe_table_fetch(t, LOBE_PROFILE_INV_R0) / s;
-	const lobe_real x = lobe_fma(LOBE_R(1.0), lobe_min(z, LOBE_R(1e+36)), LOBE_R(1.0));
+	const lobe_real x = LOBE_R(1.0) + lobe_min(z, LOBE_R(1e+36));
 	return s > LOBE_R(0.0) ? s * lobe_profile_curve(t, LOBE_PROFILE_HIDDEN, x) : LOBE_R(0.0);
 }
 
