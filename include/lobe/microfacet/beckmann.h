@@ -16,6 +16,16 @@ LOBE_FN lobe_facet_density lobe_beckmann_density(lobe_vec3 h)
 	return d;
 }
 
+/* Walter et al. 2007: (1 - 1.259 a + .396 a^2)/(3.535 a + 2.181 a^2) below a = 1.6, 0 above; a = cot/width. */
+LOBE_FN lobe_real lobe_beckmann_hidden_rational(lobe_vec3 v)
+{
+	const lobe_real r = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
+	const lobe_real z = lobe_abs(v.z);
+	const lobe_real num = lobe_fma(LOBE_R(0.396) * z, z, lobe_fma(LOBE_R(-1.259) * z, r, r * r));
+	const lobe_real den = lobe_fma(LOBE_R(2.181), z, LOBE_R(3.535) * r);
+	return z < LOBE_R(1.6) * r ? num / den : LOBE_R(0.0);
+}
+
 LOBE_FN lobe_real lobe_beckmann_tail(lobe_real t2) { return lobe_exp(-t2); }
 
 #endif
