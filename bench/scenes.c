@@ -34,6 +34,32 @@ static lobe_bsdf material_ggx_dielectric(void)
 }
 #endif
 
+/* What ggx_conductor and ggx_dielectric do, chosen at run time. */
+#if LOBE_HAS_MICROFACET_CONDUCTOR || LOBE_HAS_MICROFACET_DIELECTRIC
+static lobe_microsurface microsurface(void)
+{
+	return lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX),
+				      lobe_linear_make(0.3f, 0.0f, 0.0f, 0.2f, 0.0f, 0.0f));
+}
+#endif
+
+#if LOBE_HAS_MICROFACET_CONDUCTOR
+static lobe_bsdf material_microfacet_conductor(void)
+{
+	const lobe_fresnel_model gold = lobe_fresnel_model_conductor(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
+	return lobe_bsdf_from_microfacet_conductor(
+		lobe_microfacet_conductor_make(microsurface(), gold, LOBE_STRATEGY_VISIBLE));
+}
+#endif
+
+#if LOBE_HAS_MICROFACET_DIELECTRIC
+static lobe_bsdf material_microfacet_dielectric(void)
+{
+	return lobe_bsdf_from_microfacet_dielectric(lobe_microfacet_dielectric_make(
+		microsurface(), lobe_fresnel_model_dielectric(), 1.5f, LOBE_STRATEGY_VISIBLE));
+}
+#endif
+
 static const struct {
 	const char *name;
 	lobe_bsdf (*material)(void);

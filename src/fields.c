@@ -1,6 +1,7 @@
 /* fields.c - the fields of every lobe with their domains, so that the host can refuse a bad one by name.
  *
  * Fields that make prepares are listed too: a struct that was not made by its make function is refused. */
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -40,6 +41,42 @@ static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric), REAL(ggx_
 					      REAL(ggx_dielectric, inv_eta, 0.99999e-3, 1000.01),
 					      UINT(ggx_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
 					      UINT(ggx_dielectric, delta, 1)};
+
+/* A table's handle has no domain here: lobe_check_table sees to it. */
+#define LINEAR(lobe, map)                                                                                              \
+	REAL(lobe, map.xx, -1.0001, 1.0001), REAL(lobe, map.xy, -1.0001, 1.0001), REAL(lobe, map.yx, -1.0001, 1.0001), \
+		REAL(lobe, map.yy, -1.0001, 1.0001), REAL(lobe, map.mean_x, -100, 100),                                \
+		REAL(lobe, map.mean_y, -100, 100), REAL(lobe, map.ixx, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                 \
+		REAL(lobe, map.ixy, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                                                    \
+		REAL(lobe, map.iyx, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                                                    \
+		REAL(lobe, map.iyy, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                                                    \
+		REAL(lobe, map.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
+#define DISTRIBUTION(lobe, member)                                                                                     \
+	UINT(lobe, member.ndf, LOBE_NDF_LIMIT - 1), REAL(lobe, member.exponent, -FLT_MAX, FLT_MAX),                    \
+		REAL(lobe, member.width, 0, 1000), REAL(lobe, member.norm, 0, FLT_MAX),                                \
+		UINT(lobe, member.table.low, UINT32_MAX), UINT(lobe, member.table.high, UINT32_MAX)
+#define MICROSURFACE(lobe)                                                                                             \
+	DISTRIBUTION(lobe, surface.distribution), LINEAR(lobe, surface.map),                                           \
+		UINT(lobe, surface.masking, LOBE_MASKING_LAST), UINT(lobe, surface.joint, LOBE_JOINT_LAST),            \
+		UINT(lobe, surface.across, LOBE_ACROSS_BETA), REAL(lobe, surface.like, 0, 1000),                       \
+		REAL(lobe, surface.alpha, 0, 1000), REAL(lobe, surface.narrow, 0, 1000)
+/* What a and b are is told by the model; the widest of them is the index of a conductor. */
+#define FRESNEL(lobe)                                                                                                  \
+	UINT(lobe, fresnel.model, LOBE_FRESNEL_LAST), RGB(lobe, fresnel.a, 0, 1000), RGB(lobe, fresnel.b, 0, 1000),    \
+		REAL(lobe, fresnel.c, 0, 1e6), REAL(lobe, fresnel.d, 0, 1e6)
+
+static const field fields_microfacet_conductor[] = {
+	MICROSURFACE(microfacet_conductor), FRESNEL(microfacet_conductor),
+	UINT(microfacet_conductor, strategy, LOBE_STRATEGY_LAST)};
+
+static const field fields_microfacet_dielectric[] = {
+	MICROSURFACE(microfacet_dielectric),
+	FRESNEL(microfacet_dielectric),
+	REAL(microfacet_dielectric, eta, 0.99999e-3, 1000.01),
+	REAL(microfacet_dielectric, inv_eta, 0.99999e-3, 1000.01),
+	UINT(microfacet_dielectric, strategy, LOBE_STRATEGY_LAST),
+	UINT(microfacet_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
+	UINT(microfacet_dielectric, delta, 1)};
 
 static const struct {
 	uint32_t kind;

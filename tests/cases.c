@@ -94,6 +94,48 @@ static const recipe ggx_dielectric_recipes[] = {
 	{"eta .999 .3", {0.3, 0.3, 0.999, RADIANCE}},
 };
 
+/* alpha_x, alpha_y, then by the lobe; the surface from [8] on: cases_make.h. */
+#define SURFACE(ndf, exponent, width, xy, yx, mean_x, mean_y) ndf, exponent, width, xy, yx, mean_x, mean_y
+#define GGX                                                   SURFACE(LOBE_NDF_GGX, 0, 1, 0, 0, 0, 0)
+#define GGX_TILTED                                            SURFACE(LOBE_NDF_GGX, 0, 1, 0.15, -0.1, 0.2, -0.3)
+#define MASKING(masking, joint, across)                       LOBE_MASKING_##masking, LOBE_JOINT_##joint, LOBE_ACROSS_##across
+#define BY(strategy, fresnel)                                 LOBE_STRATEGY_##strategy, LOBE_FRESNEL_##fresnel
+
+static const recipe microfacet_conductor_recipes[] = {
+	{"copper ndf .3",
+	 {0.3, 0.3, METAL(COPPER), 0, 0, 0, 0, 0, GGX, MASKING(SMITH, SEPARABLE, SEPARABLE), BY(NDF, EXACT)}},
+	{"gold slopes .1:.4",
+	 {0.1, 0.4, METAL(GOLD), 0, 0, 0, 0, 0, GGX, MASKING(SMITH, DIRECTION, SEPARABLE), BY(VISIBLE_SLOPES, EXACT)}},
+	{"grey tilted ellipsoid",
+	 {0.5, 0.3, GREY(0.5, 0), GGX_TILTED, MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE_ELLIPSOID, CONSTANT)}},
+	{"schlick bounded .5:.2",
+	 {0.5, 0.2, GREY(0.3, 0), GGX, MASKING(SMITH, HEIGHT_DIRECTION, SEPARABLE), BY(BOUNDED_CAP, SCHLICK)}},
+	{"silver cavities .6",
+	 {0.6, 0.6, METAL(SILVER), 0, 0, 0, 0, 0, GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE), BY(VCAVITY, EXACT)}},
+	{"iron kelemen cosine .5",
+	 {0.5, 0.5, METAL(IRON), 0, 0, 0, 0, 0, GGX, MASKING(NEUMANN, HEIGHT, SEPARABLE), BY(COSINE, EXACT)}},
+};
+
+/* eta, transport, a constant or normal reflectance */
+#define GLASS(eta, transport, r) eta, transport, r, r, r, 0
+
+static const recipe microfacet_dielectric_recipes[] = {
+	{"glass slopes .3:.1",
+	 {0.3, 0.1, GLASS(1.5, RADIANCE, 0), GGX, MASKING(SMITH, HEIGHT, BETA), BY(VISIBLE_SLOPES, EXACT)}},
+	{"bubble ndf .2",
+	 {0.2, 0.2, GLASS(1 / 1.5, IMPORTANCE, 0), GGX, MASKING(SMITH, SEPARABLE, SEPARABLE), BY(NDF, EXACT)}},
+	{"glass cavities .5",
+	 {0.5, 0.5, GLASS(1.5, RADIANCE, 0), GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE), BY(VCAVITY, EXACT)}},
+	{"glass tilted schlick",
+	 {0.4, 0.3, GLASS(1.5, RADIANCE, 0.04), GGX_TILTED, MASKING(SMITH, HEIGHT, BETA), BY(VISIBLE_CAP, SCHLICK)}},
+	{"diamond uniform 1",
+	 {1, 1, GLASS(2.4175, IMPORTANCE, 0), GGX, MASKING(SCHLICK_GGX, HEIGHT, SEPARABLE), BY(UNIFORM, EXACT)}},
+	{"half mirror bounded .6",
+	 {0.6, 0.6, GLASS(1.33, RADIANCE, 0.5), GGX, MASKING(SMITH, HEIGHT, SEPARABLE), BY(BOUNDED_CAP, CONSTANT)}},
+	{"eta 1 ellipsoid .5",
+	 {0.5, 0.5, GLASS(1, RADIANCE, 0), GGX, MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE_ELLIPSOID, EXACT)}},
+};
+
 static void describe_lambert(test_case *c) { c->flags = CASE_TWO_SIDED | CASE_RECIPROCAL; }
 
 static void describe_ggx_conductor(test_case *c)
@@ -110,6 +152,38 @@ static void describe_ggx_dielectric(test_case *c)
 	c->eta = c->parameter[2];
 	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_RECIPROCAL |
 		   (c->bsdf.as.ggx_dielectric.delta != 0u ? CASE_DELTA : 0u);
+}
+
+/* Whether samples weigh at most F: visible normals of the masking's own surface. */
+static int is_light(lobe_microsurface s, lobe_uint strategy)
+{
+	if (s.masking == LOBE_MASKING_VCAVITY)
+		return strategy == LOBE_STRATEGY_VCAVITY;
+	return s.masking == LOBE_MASKING_SMITH && strategy != LOBE_STRATEGY_NDF && strategy != LOBE_STRATEGY_VCAVITY &&
+	       strategy != LOBE_STRATEGY_HEMISPHERE && !lobe_strategy_of_directions(strategy) &&
+	       !lobe_strategy_borrows_ggx(strategy, s);
+}
+
+static void describe_microsurface(test_case *c, lobe_microsurface s, lobe_uint strategy)
+{
+	c->alpha_x = c->parameter[0] * (double)s.like;
+	c->alpha_y = c->parameter[1] * (double)s.like;
+	c->flags |= is_light(s, strategy) ? 0u : CASE_HEAVY;
+	c->flags |= s.map.mean_x == 0.0f && s.map.mean_y == 0.0f ? CASE_RECIPROCAL : 0u;
+}
+
+static void describe_microfacet_conductor(test_case *c)
+{
+	const lobe_microfacet_conductor p = c->bsdf.as.microfacet_conductor;
+	describe_microsurface(c, p.surface, p.strategy);
+}
+
+static void describe_microfacet_dielectric(test_case *c)
+{
+	const lobe_microfacet_dielectric p = c->bsdf.as.microfacet_dielectric;
+	describe_microsurface(c, p.surface, p.strategy);
+	c->eta = c->parameter[2];
+	c->flags |= CASE_TWO_SIDED | CASE_TRANSMITS | (p.delta != 0u ? CASE_DELTA : 0u);
 }
 
 #define MAX_CASES 256

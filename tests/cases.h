@@ -17,10 +17,11 @@ enum {
 	CASE_TWO_SIDED = 1, /* shades from below too */
 	CASE_TRANSMITS = 2,
 	CASE_RECIPROCAL = 4, /* f(wo,wi) = f(wi,wo), across the surface with the square of the index */
-	CASE_DELTA = 8       /* some samples are LOBE_EVENT_DELTA */
+	CASE_DELTA = 8,      /* some samples are LOBE_EVENT_DELTA */
+	CASE_HEAVY = 16      /* weights above 1: samples other than by visible normals, or masking that is too bright */
 };
 
-#define CASE_PARAMETERS 8
+#define CASE_PARAMETERS 22
 
 /* parameter: the arguments of make in order (cases_make.h), each one a float, so that the double build means the same
  * lobe. alpha_x, alpha_y: the width of a microsurface, 0 for a lobe without one; eta: index below over index above, 0

@@ -25,6 +25,35 @@ static lobe_ggx_dielectric make_ggx_dielectric(const double *p)
 		lobe_ggx_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]), (lobe_uint)p[3]);
 }
 
+/* What the comparison lobes have in common, from p[8] on: distribution, exponent, width; map as xy, yx, mean slope x, y
+ * (xx and yy are alpha_x and alpha_y); masking, joint, across; strategy, Fresnel model and its c and d. */
+static lobe_microsurface make_microsurface(const double *p)
+{
+	lobe_distribution d = lobe_distribution_make((lobe_uint)p[8]);
+	const lobe_linear map = lobe_linear_make((lobe_real)p[0], (lobe_real)p[11], (lobe_real)p[12], (lobe_real)p[1],
+						 (lobe_real)p[13], (lobe_real)p[14]);
+	return lobe_microsurface_joint(lobe_microsurface_masking(lobe_microsurface_make(d, map), (lobe_uint)p[15]),
+				       (lobe_uint)p[16], (lobe_uint)p[17]);
+}
+
+/* alpha_x, alpha_y, a.rgb, b.rgb of the Fresnel model, and as above */
+static lobe_microfacet_conductor make_microfacet_conductor(const double *p)
+{
+	const lobe_fresnel_model f = lobe_fresnel_model_make((lobe_uint)p[19], make_rgb(p + 2), make_rgb(p + 5),
+							     (lobe_real)p[20], (lobe_real)p[21]);
+	return lobe_microfacet_conductor_make(make_microsurface(p), f, (lobe_uint)p[18]);
+}
+
+/* alpha_x, alpha_y, eta, transport, a.rgb of the Fresnel model, and as above */
+static lobe_microfacet_dielectric make_microfacet_dielectric(const double *p)
+{
+	const lobe_fresnel_model f = lobe_fresnel_model_make((lobe_uint)p[19], make_rgb(p + 4), make_rgb(p + 4),
+							     (lobe_real)p[20], (lobe_real)p[21]);
+	return lobe_microfacet_dielectric_transport(
+		lobe_microfacet_dielectric_make(make_microsurface(p), f, (lobe_real)p[2], (lobe_uint)p[18]),
+		(lobe_uint)p[3]);
+}
+
 static lobe_bsdf make_bsdf(uint32_t kind, const double *p)
 {
 	lobe_bsdf none;

@@ -251,6 +251,21 @@ static const field fields_ggx_conductor[] = {GGX_FIELD(ggx_conductor), RGB_FIELD
 static const field fields_ggx_dielectric[] = {GGX_FIELD(ggx_dielectric), FIELD(ggx_dielectric, eta, -1),
 					      FIELD(ggx_dielectric, inv_eta, -1)};
 
+#define LINEAR_FIELD(lobe, map)                                                                                        \
+	FIELD(lobe, map.xx, -1), FIELD(lobe, map.xy, -1), FIELD(lobe, map.yx, -1), FIELD(lobe, map.yy, -1),            \
+		FIELD(lobe, map.mean_x, -1), FIELD(lobe, map.mean_y, -1), FIELD(lobe, map.ixx, -1),                    \
+		FIELD(lobe, map.ixy, -1), FIELD(lobe, map.iyx, -1), FIELD(lobe, map.iyy, -1), FIELD(lobe, map.norm, -1)
+#define MICROSURFACE_FIELD(lobe)                                                                                       \
+	LINEAR_FIELD(lobe, surface.map), FIELD(lobe, surface.distribution.exponent, -1),                               \
+		FIELD(lobe, surface.distribution.width, -1), FIELD(lobe, surface.distribution.norm, -1),               \
+		FIELD(lobe, surface.like, -1), FIELD(lobe, surface.alpha, -1), FIELD(lobe, surface.narrow, -1),        \
+		RGB_FIELD(lobe, fresnel.a), RGB_FIELD(lobe, fresnel.b), FIELD(lobe, fresnel.c, -1),                    \
+		FIELD(lobe, fresnel.d, -1)
+static const field fields_microfacet_conductor[] = {MICROSURFACE_FIELD(microfacet_conductor)};
+static const field fields_microfacet_dielectric[] = {MICROSURFACE_FIELD(microfacet_dielectric),
+						     FIELD(microfacet_dielectric, eta, -1),
+						     FIELD(microfacet_dielectric, inv_eta, -1)};
+
 static unsigned poisoned, shaded;
 
 static void poison(const test_case *c, const field *f, size_t n)

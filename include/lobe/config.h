@@ -25,6 +25,12 @@
 #ifndef LOBE_HAS_GGX_DIELECTRIC
 #define LOBE_HAS_GGX_DIELECTRIC LOBE_HAS_DEFAULT
 #endif
+#ifndef LOBE_HAS_MICROFACET_CONDUCTOR
+#define LOBE_HAS_MICROFACET_CONDUCTOR LOBE_HAS_DEFAULT
+#endif
+#ifndef LOBE_HAS_MICROFACET_DIELECTRIC
+#define LOBE_HAS_MICROFACET_DIELECTRIC LOBE_HAS_DEFAULT
+#endif
 
 /* The distributions of microfacet normals that those lobes need. */
 #ifndef LOBE_HAS_NDF_GGX
@@ -35,6 +41,8 @@
 #endif
 
 /* The linked library has every lobe; its lobe_bsdf is a union over them all. */
-#define LOBE_HAS_ALL (LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC)
+#define LOBE_HAS_ALL                                                                                                   \
+	(LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC && LOBE_HAS_MICROFACET_CONDUCTOR &&     \
+	 LOBE_HAS_MICROFACET_DIELECTRIC)
 
 #endif

@@ -40,14 +40,13 @@ LOBE_FN lobe_real lobe_log_one_plus_ratio(lobe_real x, lobe_real y)
  * without cancellation. Relative error 1.6e-7 (1 + |ln B|) (tests/test_masking.c, against GSL). */
 LOBE_FN lobe_real lobe_beta(lobe_real a, lobe_real b)
 {
-	const lobe_real half = LOBE_R(0.5);
 	const lobe_real half_ln_2pi = LOBE_R(0.918938533204672741780);
 	const lobe_real x = lobe_min(a, b), y = lobe_max(a, b);
 	const lobe_real sum = x + y;
 	const lobe_real rest = lobe_binet(x) + lobe_binet(y) - lobe_binet(sum) + half_ln_2pi;
-	const lobe_real small = (x - half) * lobe_log(x / sum);
-	const lobe_real large = (y - half) * lobe_log_one_plus_ratio(x, y);
-	return lobe_exp(small - large - half * lobe_log(sum) + rest);
+	const lobe_real small = (x - LOBE_R(0.5)) * lobe_log(x / sum);
+	const lobe_real large = (y - LOBE_R(0.5)) * lobe_log_one_plus_ratio(x, y);
+	return lobe_exp(small - large - LOBE_R(0.5) * lobe_log(sum) + rest);
 }
 
 #endif

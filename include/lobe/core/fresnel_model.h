@@ -59,6 +59,13 @@ LOBE_FN lobe_real lobe_fresnel_model_params(lobe_fresnel_model f)
 	return f.a.r + f.a.g + f.a.b + f.b.r + f.b.g + f.b.b + f.c + f.d;
 }
 
+/* 1 - f */
+LOBE_FN lobe_rgb lobe_rgb_rest(lobe_rgb f)
+{
+	const lobe_real one = LOBE_R(1.0);
+	return lobe_rgb_make(one - f.r, one - f.g, one - f.b);
+}
+
 /* Reflectance of an opaque surface; c: cosine to the facet. */
 LOBE_FN_APART lobe_rgb lobe_fresnel_model_opaque(lobe_fresnel_model f, lobe_real c)
 {
@@ -72,6 +79,16 @@ LOBE_FN_APART lobe_rgb lobe_fresnel_model_opaque(lobe_fresnel_model f, lobe_real
 	default:
 		return lobe_rgb_make(LOBE_R(0.0), LOBE_R(0.0), LOBE_R(0.0));
 	}
+}
+
+/* 1 less that; of Schlick's (1 - f0)(1 - (1-c)^5), whose second factor is c times a sum, without the cancellation at
+ * grazing angles. */
+LOBE_FN lobe_rgb lobe_fresnel_model_rest(lobe_fresnel_model f, lobe_real c, lobe_rgb reflectance)
+{
+	const lobe_real one = LOBE_R(1.0);
+	const lobe_real m = one - c;
+	const lobe_real sum = lobe_fma(m, lobe_fma(m, lobe_fma(m, one + m, one), one), one);
+	return f.model == LOBE_FRESNEL_SCHLICK ? lobe_rgb_scale(lobe_rgb_rest(f.a), c * sum) : lobe_rgb_rest(reflectance);
 }
 
 /* What an interface does with light. reflect, transmit: probabilities by which a sample chooses, the means of the two
@@ -101,10 +118,10 @@ LOBE_FN_APART lobe_fresnel_split lobe_fresnel_model_interface(lobe_fresnel_model
 		s.transmittance = lobe_rgb_make(t, t, t);
 	} else {
 		const int total = s.exact.transmittance == zero;
-		const lobe_rgb r = lobe_fresnel_model_opaque(f, e < one ? s.exact.cos_t : c);
+		const lobe_real thin = e < one ? s.exact.cos_t : c;
+		const lobe_rgb r = lobe_fresnel_model_opaque(f, thin);
 		s.reflectance = total ? lobe_rgb_make(one, one, one) : r;
-		s.transmittance =
-			lobe_rgb_make(one - s.reflectance.r, one - s.reflectance.g, one - s.reflectance.b);
+		s.transmittance = lobe_rgb_select(!total, lobe_fresnel_model_rest(f, thin, r));
 	}
 	s.reflect = lobe_fresnel_mean(s.reflectance);
 	s.transmit = lobe_fresnel_mean(s.transmittance);

@@ -13,5 +13,11 @@
 #if LOBE_HAS_GGX_DIELECTRIC
 #include "ggx_dielectric.h"
 #endif
+#if LOBE_HAS_MICROFACET_CONDUCTOR
+#include "microfacet_conductor.h"
+#endif
+#if LOBE_HAS_MICROFACET_DIELECTRIC
+#include "microfacet_dielectric.h"
+#endif
 
 #endif

@@ -40,6 +40,15 @@ LOBE_FN int lobe_microfacet_conductor_ok(lobe_microfacet_conductor p, lobe_vec3 
 	return numbers & (lobe_min(lobe_min(wo.z, wi.z), facing) > LOBE_R(0.0));
 }
 
+/* The table of its distribution, for the scene that keeps it (core/table.h). */
+LOBE_FN lobe_table lobe_microfacet_conductor_table(lobe_microfacet_conductor p) { return p.surface.distribution.table; }
+
+LOBE_FN lobe_microfacet_conductor lobe_microfacet_conductor_with_table(lobe_microfacet_conductor p, lobe_table table)
+{
+	p.surface.distribution.table = table;
+	return p;
+}
+
 /* f |cos theta_i| [1/sr] */
 LOBE_FN_APART lobe_rgb lobe_microfacet_conductor_eval(lobe_microfacet_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {

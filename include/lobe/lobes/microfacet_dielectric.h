@@ -9,13 +9,14 @@
  * direction on either side; where no facet can take the light there is no sample and pdf is 0. BOUNDED_CAP is
  * VISIBLE_CAP here, since refraction needs the facets that the bound leaves out.
  *
- * Where refraction is too narrow for float directions (LOBE_DIELECTRIC_DELTA, microfacet/dielectric.h) it is an event of
+ * Where refraction is too narrow for float directions (microfacet/delta.h) it is an event of
  * LOBE_EVENT_DELTA and strategies of directions, which would never find it, become VISIBLE. */
 #ifndef LOBE_LOBES_MICROFACET_DIELECTRIC_H
 #define LOBE_LOBES_MICROFACET_DIELECTRIC_H
 
 #include "../core/event.h"
 #include "../core/fresnel_model.h"
+#include "../microfacet/delta.h"
 #include "../microfacet/scatter.h"
 
 /* strategy: LOBE_STRATEGY_*. eta: index below over index above the surface, in [1/1000, 1000]; inv_eta is 1/eta. transport:
@@ -37,7 +38,7 @@ LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_make(lobe_microsur
 	p.eta = eta;
 	p.inv_eta = LOBE_R(1.0) / eta + (eta - eta); /* NaN for an infinite eta, not 0 */
 	p.transport = LOBE_TRANSPORT_RADIANCE;
-	p.delta = lobe_dielectric_is_delta(surface.alpha, eta);
+	p.delta = (lobe_uint)lobe_dielectric_is_delta(lobe_microsurface_wide(surface), eta);
 	p.strategy = p.delta && lobe_strategy_of_directions(strategy) ? (lobe_uint)LOBE_STRATEGY_VISIBLE : strategy;
 	return p;
 }
@@ -96,6 +97,15 @@ LOBE_FN_APART lobe_microfacet_dielectric_result lobe_microfacet_dielectric_at(lo
 	return result;
 }
 
+/* The table of its distribution, for the scene that keeps it (core/table.h). */
+LOBE_FN lobe_table lobe_microfacet_dielectric_table(lobe_microfacet_dielectric p) { return p.surface.distribution.table; }
+
+LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_with_table(lobe_microfacet_dielectric p, lobe_table table)
+{
+	p.surface.distribution.table = table;
+	return p;
+}
+
 /* f |cos theta_i| [1/sr] */
 LOBE_FN_APART lobe_rgb lobe_microfacet_dielectric_eval(lobe_microfacet_dielectric p, lobe_vec3 wo, lobe_vec3 wi)
 {
@@ -122,7 +132,12 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 	const lobe_real params = lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
 	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, split.exact);
 	const lobe_vec3 i = v.e < one ? lobe_normalize(bent) : bent;
-	const lobe_real rate = lobe_strategy_rate(p.strategy, p.surface, o, v.o, 1, facet);
+	lobe_seen_facet seen;
+	seen.o = lobe_dot(o.v, facet);
+	seen.i = seen.o;
+	seen.z = facet.z;
+	seen.length2 = lobe_dot(facet, facet);
+	const lobe_real rate = lobe_strategy_rate(p.strategy, p.surface, o, v.o, 1, seen);
 	const lobe_facet_density d = lobe_distribution_density(p.surface.distribution, facet);
 	const lobe_real ratio = lobe_strategy_ratio(d, lobe_strategy_density(p.strategy, p.surface, facet, d));
 	const lobe_rgb weight = lobe_rgb_scale(split.transmittance, v.scale * ratio / (rate * o.sigma * split.transmit));

@@ -19,10 +19,9 @@
 
 #include "../core/event.h"
 #include "../core/fresnel.h"
+#include "delta.h"
 #include "ndf.h"
 #include "stretch.h"
-
-#define LOBE_DIELECTRIC_DELTA LOBE_R(2e-6)
 
 /* ndf: LOBE_NDF_*, a constant. stretch: widths along tangent and bitangent. eta: index below over index above the surface, in [1/1000, 1000]; inv_eta is
  * 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. */
@@ -40,7 +39,7 @@ LOBE_FN lobe_rough_dielectric lobe_rough_dielectric_make(lobe_real alpha_x, lobe
 	p.eta = eta;
 	p.inv_eta = LOBE_R(1.0) / eta + (eta - eta); /* NaN for an infinite eta, not 0 */
 	p.transport = LOBE_TRANSPORT_RADIANCE;
-	p.delta = lobe_max(p.stretch.alpha_x, p.stretch.alpha_y) * lobe_abs(eta - LOBE_R(1.0)) < LOBE_DIELECTRIC_DELTA;
+	p.delta = (lobe_uint)lobe_dielectric_is_delta(lobe_max(p.stretch.alpha_x, p.stretch.alpha_y), eta);
 	return p;
 }
 

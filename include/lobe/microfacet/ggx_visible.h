@@ -31,7 +31,7 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_cut(lobe_vec3 v, lobe_real u, lobe_real p, lo
 	const lobe_real a = c * root, b = s * y;
 	const lobe_real quotient = u * height * ((y - c) / (b - a));
 	const lobe_real x = lobe_fma(s, root, -c * y);
-	const lobe_real z = (c < zero) | (y < zero) ? quotient : a + b;
+	const lobe_real z = lobe_min(c, y) < zero ? quotient : a + b;
 	const lobe_real qx = q * x;
 	return lobe_vec3_make(lobe_fma(qx, ex, -p * ey), lobe_fma(qx, ey, p * ex), q * z);
 }
@@ -40,7 +40,7 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_cut(lobe_vec3 v, lobe_real u, lobe_real p, lo
  * a half ellipse, of which a disk's points are moved to. */
 LOBE_FN lobe_vec3 lobe_ggx_visible_ellipsoid(lobe_vec3 v, lobe_vec2 u)
 {
-	const lobe_real half = LOBE_R(0.5), one = LOBE_R(1.0);
+	const lobe_real one = LOBE_R(1.0);
 	/* Of each cell of u.x the middle: a point on the rim would be a normal at the horizon. */
 	const lobe_real r2 = lobe_fma(u.x, LOBE_BELOW_ONE, LOBE_R(0x1p-25));
 	const lobe_real r = lobe_sqrt(r2);
@@ -48,8 +48,8 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_ellipsoid(lobe_vec3 v, lobe_vec2 u)
 	const lobe_real p = r * sc.c, y = r * sc.s;
 	const lobe_real q = lobe_sqrt((one - p) * (one + p));
 	/* (1 + y/q)/2, near y = -q as (1 - r^2)/(2 q (q - y)). */
-	const lobe_real behind = half * (one - r2) / (q * (q - y));
-	const lobe_real before = lobe_fma(half, y / q, half);
+	const lobe_real behind = LOBE_R(0.5) * (one - r2) / (q * (q - y));
+	const lobe_real before = lobe_fma(LOBE_R(0.5), y / q, LOBE_R(0.5));
 	return lobe_ggx_visible_cut(v, y < LOBE_R(0.0) ? behind : before, p, q);
 }
 
@@ -77,12 +77,12 @@ LOBE_FN lobe_real lobe_ggx_kepler(lobe_real u)
  * supplement has a rational fit of it, which samples a density slightly other than the one it divides by. */
 LOBE_FN lobe_vec3 lobe_ggx_visible_slopes(lobe_vec3 v, lobe_vec2 u)
 {
-	const lobe_real half = LOBE_R(0.5), one = LOBE_R(1.0);
+	const lobe_real one = LOBE_R(1.0);
 	const lobe_real along = lobe_fma(u.x, LOBE_BELOW_ONE, LOBE_R(0x1p-25));
 	const lobe_real across = lobe_fma(u.y, LOBE_BELOW_ONE, LOBE_R(0x1p-25));
-	const int left = across < half;
+	const int left = across < LOBE_R(0.5);
 	const lobe_real w = lobe_ggx_kepler(left ? across : one - across);
-	const lobe_sincos sc = lobe_sincos_2pi(w * (half / LOBE_2PI));
+	const lobe_sincos sc = lobe_sincos_2pi(w * (LOBE_R(0.5) / LOBE_2PI));
 	return lobe_ggx_visible_cut(v, along, left ? -sc.c : sc.c, sc.s);
 }
 

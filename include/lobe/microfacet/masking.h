@@ -95,11 +95,10 @@ LOBE_FN lobe_real lobe_masking_smith_across(lobe_uint across, lobe_seen o, lobe_
 	return across == LOBE_ACROSS_BETA ? exact : i.z / (sum_o * (i.z + i.hides));
 }
 
-/* h: a normal of any length on the surface of width 1. */
-LOBE_FN lobe_real lobe_masking_vcavity(lobe_seen o, lobe_seen i, lobe_vec3 h, int across)
+LOBE_FN lobe_real lobe_masking_vcavity(lobe_seen o, lobe_seen i, lobe_seen_facet m, int across)
 {
-	const lobe_real g_o = lobe_vcavity_g1_over_cos(o.v, o.z, h);
-	const lobe_real g_i = lobe_vcavity_g1(i.v, i.z, h);
+	const lobe_real g_o = lobe_vcavity_g1_over_cos(o.z, m.o, m.z);
+	const lobe_real g_i = lobe_vcavity_g1(i.z, m.i, m.z);
 	const lobe_real common = lobe_max(g_o - (LOBE_R(1.0) - g_i) / o.z, LOBE_R(0.0));
 	return across ? common : lobe_min(g_o, g_i / o.z);
 }
@@ -134,10 +133,9 @@ LOBE_FN lobe_real lobe_masking_width(lobe_microsurface s)
 	}
 }
 
-/* G2/z_o. o and i from lobe_see; h: the facet, on the surface of width 1, of any length and h.z > 0; facing: |o.m||i.m|
- * of the facet as it is; across: i is on the other side. 0 where i sees the back of the mean plane. */
-LOBE_FN_APART lobe_real lobe_masking_g2_over_cos(lobe_microsurface s, lobe_seen o, lobe_seen i, lobe_vec3 h,
-						 lobe_real facing, int across)
+/* G2/z_o. o and i from lobe_see; across: i is on the other side. 0 where i sees the back of the mean plane. */
+LOBE_FN_APART lobe_real lobe_masking_g2_over_cos(lobe_microsurface s, lobe_seen o, lobe_seen i, lobe_seen_facet m,
+						 int across)
 {
 	const lobe_real zero = LOBE_R(0.0);
 	if (!(i.z > zero))
@@ -149,7 +147,7 @@ LOBE_FN_APART lobe_real lobe_masking_g2_over_cos(lobe_microsurface s, lobe_seen 
 	const lobe_real k = lobe_masking_width(s);
 	switch (s.masking) {
 	case LOBE_MASKING_VCAVITY:
-		return lobe_masking_vcavity(o, i, h, across);
+		return lobe_masking_vcavity(o, i, m, across);
 	case LOBE_MASKING_NONE:
 		return LOBE_R(1.0) / o.z;
 	case LOBE_MASKING_IMPLICIT:
@@ -159,7 +157,7 @@ LOBE_FN_APART lobe_real lobe_masking_g2_over_cos(lobe_microsurface s, lobe_seen 
 	case LOBE_MASKING_SCHLICK_GGX_LIGHTS:
 		return o.inv_length * i.cosine * lobe_masking_schlick(o, k) * lobe_masking_schlick(i, k);
 	case LOBE_MASKING_KELEMEN:
-		return o.inv_length * i.cosine / facing;
+		return o.inv_length * i.cosine / ((m.o / m.length2) * m.i);
 	case LOBE_MASKING_NEUMANN:
 		return o.inv_length * i.cosine / lobe_max(o.cosine, i.cosine);
 	case LOBE_MASKING_DISNEY:

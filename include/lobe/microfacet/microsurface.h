@@ -56,6 +56,9 @@ LOBE_FN lobe_real lobe_linear_narrow(lobe_linear m)
 	return LOBE_INV_PI / (m.norm * wide);
 }
 
+/* The width that the distribution has before the map, as a GGX surface would have it. */
+LOBE_FN lobe_real lobe_distribution_like_ggx(lobe_distribution d) { return d.width; }
+
 /* Smith's masking, height-correlated on one side and separable across. */
 LOBE_FN lobe_microsurface lobe_microsurface_make(lobe_distribution distribution, lobe_linear map)
 {
@@ -85,6 +88,9 @@ LOBE_FN lobe_microsurface lobe_microsurface_joint(lobe_microsurface s, lobe_uint
 	s.across = across;
 	return s;
 }
+
+/* The greater of the map's widths, times like. */
+LOBE_FN lobe_real lobe_microsurface_wide(lobe_microsurface s) { return s.alpha * (s.alpha / s.narrow); }
 
 /* No finite number where a parameter is none. */
 LOBE_FN lobe_real lobe_microsurface_params(lobe_microsurface s)
@@ -125,5 +131,11 @@ LOBE_FN_APART lobe_seen lobe_see(lobe_microsurface s, lobe_vec3 w_in, lobe_real 
 	d.cosine = d.z * d.inv_length;
 	return d;
 }
+
+/* What they ask of a facet h of any length: |o.h| and |i.h|, which are products with v and with h on the surface of width
+ * 1 as well; h.z > 0, the same there; |h|^2. */
+typedef struct {
+	lobe_real o, i, z, length2;
+} lobe_seen_facet;
 
 #endif

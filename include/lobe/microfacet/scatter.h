@@ -32,8 +32,11 @@ LOBE_FN_APART lobe_scatter lobe_scatter_at(lobe_microsurface s, lobe_uint strate
 	const lobe_vec3 h = lobe_vec3_scale(sum, up);
 	const lobe_real h2 = lobe_dot(h, h);
 	/* Of a reflection both are |H|^2/2, which does not cancel. */
-	const lobe_real oh = across ? lobe_dot(o, h) : LOBE_R(0.5) * h2;
-	const lobe_real ih = across ? -lobe_dot(i, h) : LOBE_R(0.5) * h2;
+	lobe_seen_facet m;
+	m.o = across ? lobe_dot(o, h) : LOBE_R(0.5) * h2;
+	m.i = across ? -lobe_dot(i, h) : LOBE_R(0.5) * h2;
+	m.z = h.z;
+	m.length2 = h2;
 	const lobe_vec3 f = lobe_linear_facet(s.map, h);
 	const lobe_seen seen_o = lobe_see(s, o, one);
 	const lobe_seen seen_i = lobe_see(s, i, across ? -one : one);
@@ -41,16 +44,16 @@ LOBE_FN_APART lobe_scatter lobe_scatter_at(lobe_microsurface s, lobe_uint strate
 	const lobe_facet_density d_s = lobe_strategy_density(strategy, s, f, d);
 	const lobe_real x = e_r * d.inv, x_s = e_r * d_s.inv;
 	lobe_scatter r;
-	r.facing = lobe_min(lobe_min(o.z, across ? -i.z : i.z), lobe_min(lobe_min(oh, ih), h.z));
-	r.cosine = lobe_min(oh / lobe_sqrt(h2), one);
-	r.density = s.map.norm * (oh * x) * (ih * x) * d.factor;
-	r.g2_over_cos = lobe_masking_g2_over_cos(s, seen_o, seen_i, f, (oh / h2) * ih, across);
+	r.facing = lobe_min(lobe_min(o.z, across ? -i.z : i.z), lobe_min(lobe_min(m.o, m.i), m.z));
+	r.cosine = lobe_min(m.o / lobe_sqrt(h2), one);
+	r.density = s.map.norm * (m.o * x) * (m.i * x) * d.factor;
+	r.g2_over_cos = lobe_masking_g2_over_cos(s, seen_o, seen_i, m, across);
 	if (lobe_strategy_of_directions(strategy)) {
 		r.sampled = lobe_strategy_direction_pdf(strategy, transmits, i);
 		r.gain = r.density * r.g2_over_cos / r.sampled;
 	} else {
-		const lobe_real rate = lobe_strategy_rate(strategy, s, seen_o, o, transmits, f);
-		r.sampled = s.map.norm * (oh * x_s) * (ih * x_s) * d_s.factor * rate;
+		const lobe_real rate = lobe_strategy_rate(strategy, s, seen_o, o, transmits, m);
+		r.sampled = s.map.norm * (m.o * x_s) * (m.i * x_s) * d_s.factor * rate;
 		r.gain = lobe_strategy_ratio(d, d_s) * r.g2_over_cos / rate;
 	}
 	return r;

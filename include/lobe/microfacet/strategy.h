@@ -140,11 +140,11 @@ LOBE_FN_APART lobe_strategy_facet lobe_strategy_sample(lobe_uint strategy, lobe_
 	return f;
 }
 
-/* Density of m over D_s(m) |o.m|. h: m on the surface of width 1, of any length, h.z > 0 and o.v.h > 0. */
+/* Density of m over D_s(m) |o.m|, m.o > 0. */
 LOBE_FN_APART lobe_real lobe_strategy_rate(lobe_uint strategy, lobe_microsurface s, lobe_seen o, lobe_vec3 wo,
-					   int transmits, lobe_vec3 h)
+					   int transmits, lobe_seen_facet m)
 {
-	const lobe_real half = LOBE_R(0.5), one = LOBE_R(1.0), zero = LOBE_R(0.0);
+	const lobe_real one = LOBE_R(1.0), zero = LOBE_R(0.0);
 	const lobe_vec3 v = lobe_strategy_ggx_direction(s, o.v);
 	const lobe_real sigma = o.z + lobe_ggx_hidden(v);
 	const lobe_real k = lobe_strategy_bound(strategy, s, wo, o.v.z, transmits);
@@ -153,11 +153,11 @@ LOBE_FN_APART lobe_real lobe_strategy_rate(lobe_uint strategy, lobe_microsurface
 		return one / o.sigma;
 	case LOBE_STRATEGY_NDF:
 	case LOBE_STRATEGY_HEMISPHERE:
-		return h.z / lobe_dot(o.v, h);
+		return m.z / m.o;
 	case LOBE_STRATEGY_VCAVITY:
-		return lobe_vcavity_g1_over_cos(o.v, o.z, h);
+		return lobe_vcavity_g1_over_cos(o.z, m.o, m.z);
 	case LOBE_STRATEGY_BOUNDED_CAP:
-		return one / (k < one ? half * lobe_fma(k, o.v.z, lobe_ggx_t(v)) : sigma);
+		return one / (k < one ? LOBE_R(0.5) * lobe_fma(k, o.v.z, lobe_ggx_t(v)) : sigma);
 	case LOBE_STRATEGY_VISIBLE_SLOPES:
 	case LOBE_STRATEGY_VISIBLE_ELLIPSOID:
 	case LOBE_STRATEGY_VISIBLE_CAP:
@@ -174,7 +174,8 @@ LOBE_FN lobe_vec3 lobe_strategy_direction(lobe_uint strategy, int transmits, lob
 	const lobe_vec2 u2 = lobe_vec2_make(u.x, u.y);
 	const lobe_vec3 uniform = lobe_spherical_cap(u2, transmits ? LOBE_R(2.0) : LOBE_R(1.0));
 	const lobe_vec3 cosine = lobe_cosine_hemisphere(u2);
-	const lobe_real z = transmits & (u.z >= LOBE_R(0.5)) ? -cosine.z : cosine.z;
+	const int below = transmits & (u.z >= LOBE_R(0.5));
+	const lobe_real z = below ? -cosine.z : cosine.z;
 	return strategy == LOBE_STRATEGY_UNIFORM ? uniform : lobe_vec3_make(cosine.x, cosine.y, z);
 }
 

@@ -13,18 +13,16 @@
 
 #include "../core/warp.h"
 
-/* G1(v, m)/z = min(1/z, 2 m.z/(v.m)) where v.m > 0. */
-LOBE_FN lobe_real lobe_vcavity_g1_over_cos(lobe_vec3 v, lobe_real z, lobe_vec3 m)
+/* G1(v, m)/z = min(1/z, 2 m.z/(v.m)) where v.m = facing > 0. */
+LOBE_FN lobe_real lobe_vcavity_g1_over_cos(lobe_real z, lobe_real facing, lobe_real m_z)
 {
-	const lobe_real facing = lobe_dot(v, m);
-	const lobe_real g = lobe_min(LOBE_R(1.0) / z, (m.z + m.z) / facing);
+	const lobe_real g = lobe_min(LOBE_R(1.0) / z, (m_z + m_z) / facing);
 	return lobe_min(z, facing) > LOBE_R(0.0) ? g : LOBE_R(0.0);
 }
 
-LOBE_FN lobe_real lobe_vcavity_g1(lobe_vec3 v, lobe_real z, lobe_vec3 m)
+LOBE_FN lobe_real lobe_vcavity_g1(lobe_real z, lobe_real facing, lobe_real m_z)
 {
-	const lobe_real facing = lobe_dot(v, m);
-	const lobe_real g = lobe_min(LOBE_R(1.0), (m.z + m.z) * (z / facing));
+	const lobe_real g = lobe_min(LOBE_R(1.0), (m_z + m_z) * (z / facing));
 	return lobe_min(z, facing) > LOBE_R(0.0) ? g : LOBE_R(0.0);
 }
 
