@@ -50,6 +50,57 @@ static double conductor_condition(const test_case *c, double cosine)
 	return worst;
 }
 
+static const lobe_microsurface *surface_of(const test_case *c)
+{
+	switch (c->kind) {
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		return &c->bsdf.as.microfacet_conductor.surface;
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		return &c->bsdf.as.microfacet_dielectric.surface;
+	default:
+		return NULL;
+	}
+}
+
+/* A linear map's own cancellations: H on the surface of width 1, of whose squared length D is the power -2, and the area
+ * of the mean plane, z - mean.w, as each direction sees it; and the logarithm of the beta function, whose error comes
+ * with it. undecided: which face of the mean plane is seen hangs on the last bits. */
+static double surface_condition(const lobe_microsurface *s, const double o[3], const double i[3], const double h[3],
+				int *undecided)
+{
+	const lobe_linear *m = &s->map;
+	const double up = h[2] < 0.0 ? -1.0 : 1.0, hz = up * h[2];
+	const double x = up * h[0] + (double)m->mean_x * hz, y = up * h[1] + (double)m->mean_y * hz;
+	const double big_x = fabs(h[0]) + fabs((double)m->mean_x) * hz, big_y = fabs(h[1]) + fabs((double)m->mean_y) * hz;
+	const double fx = (double)m->ixx * x + (double)m->ixy * y, fy = (double)m->iyx * x + (double)m->iyy * y;
+	const double big_fx = fabs((double)m->ixx) * big_x + fabs((double)m->ixy) * big_y;
+	const double big_fy = fabs((double)m->iyx) * big_x + fabs((double)m->iyy) * big_y;
+	double sum = 4.0 * ((fabs(fx) * big_fx + fabs(fy) * big_fy + hz * hz) / (fx * fx + fy * fy + hz * hz) - 1.0);
+	double log_beta = 0.0, gammas = 0.0;
+	const double *const w[2] = {o, i};
+	for (int k = 0; k < 2; k++) {
+		const double a = (double)m->mean_x * w[k][0], b = (double)m->mean_y * w[k][1];
+		const double z = fabs(w[k][2] - a - b), size = fabs(w[k][2]) + fabs(a) + fabs(b);
+		const double vx = (double)m->xx * w[k][0] + (double)m->yx * w[k][1];
+		const double vy = (double)m->xy * w[k][0] + (double)m->yy * w[k][1];
+		const double one_plus_lambda = 0.5 * (sqrt(vx * vx + vy * vy + z * z) / z + 1.0);
+		*undecided |= z < 8.0 * U * size;
+		sum += size / z - 1.0;
+		log_beta += lgamma(one_plus_lambda);
+		gammas += one_plus_lambda;
+	}
+	/* What both see of a cavity's side: G1(o) + G1(i) - 1. */
+	const double g_o = fmin(1.0, 2.0 * hz * fabs(o[2]) / fabs(textbook_dot(o, h)));
+	const double g_i = fmin(1.0, 2.0 * hz * fabs(i[2]) / fabs(textbook_dot(i, h)));
+	if (s->masking == LOBE_MASKING_VCAVITY && o[2] * i[2] < 0.0) {
+		sum += 2.0 / fabs(g_o + g_i - 1.0);
+		*undecided |= fabs(g_o + g_i - 1.0) < 64.0 * U;
+	}
+	if (s->across == LOBE_ACROSS_BETA && o[2] * i[2] < 0.0)
+		sum += 8.0 * fabs(log_beta - lgamma(gammas)) + gammas;
+	return sum;
+}
+
 /* inexact: how far the directions themselves are off, in u (0 where both sides get the same ones). */
 static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_f, double inexact)
 {
@@ -72,8 +123,11 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 	const double oh = fabs(textbook_dot(o, h)), ih = fabs(textbook_dot(i, h));
 	const double q = h[0] * h[0] / ax2 + h[1] * h[1] / ay2 + h[2] * h[2];
 	const double slope = sqrt(h[0] * h[0] / (ax2 * ax2) + h[1] * h[1] / (ay2 * ay2) + h[2] * h[2]) / q;
+	const double mapped = surface_of(c) ? surface_condition(surface_of(c), o, i, h, &r.undecided) : 0.0;
 	if (!(c->flags & CASE_TRANSMITS)) {
-		r.fresnel = conductor_condition(c, fmin(0.5 * size, 1.0));
+		const int exact = c->kind != LOBE_KIND_MICROFACET_CONDUCTOR ||
+				  c->bsdf.as.microfacet_conductor.fresnel.model == LOBE_FRESNEL_EXACT;
+		r.fresnel = mapped + (exact ? conductor_condition(c, fmin(0.5 * size, 1.0)) : 0.0);
 		r.input = inexact * (4.0 * slope + 4.0 / size);
 		return r;
 	}
@@ -86,8 +140,8 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 		cosine * cosine * (1.0 + dots) + fabs(e_view * e_view - 1.0) + (o[2] < 0.0 ? e_view * e_view : 0.0);
 	/* transmittance goes with g, reflectance with 1 - 4 g/c. */
 	const double tir = e_view < 1.0 ? (transmits ? g2_off / fabs(g2) : g2_off / sqrt(fabs(g2)) / cosine) : 0.0;
-	r.undecided = e_view < 1.0 && fabs(g2) < 4.0 * U * (g2_off + inexact);
-	r.fresnel = dots + tir;
+	r.undecided |= e_view < 1.0 && fabs(g2) < 4.0 * U * (g2_off + inexact);
+	r.fresnel = dots + tir + mapped;
 	/* 1/eta is rounded, eta is not: from below H = o + i/eta inherits it, and e - 1 too. */
 	if (o[2] < 0.0)
 		r.index =
