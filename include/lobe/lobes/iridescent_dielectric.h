@@ -41,22 +41,13 @@ LOBE_FN lobe_iridescent_dielectric lobe_iridescent_dielectric_transport(lobe_iri
 	return p;
 }
 
-/* What a facet does to light at cosine c; fr: what it does without the film. */
+/* What a facet does to light at cosine c; fr: what it does without the film. The film is looked at from the thinner
+ * medium: at total reflection from within the cosine there is 0, where everything is reflected. */
 LOBE_FN lobe_film_fresnel lobe_iridescent_dielectric_film(lobe_iridescent_dielectric p, lobe_rough_dielectric_view v,
 							  lobe_real c, lobe_fresnel fr)
 {
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const int inside = v.e < one;
-	const int total = inside & (fr.transmittance == zero);
-	const lobe_film_fresnel f =
-		lobe_thin_film_dielectric_rgb(inside ? fr.cos_t : c, p.film, inside ? v.inv_e : v.e);
-	lobe_film_fresnel r;
-	r.reflectance = lobe_rgb_make(total ? one : f.reflectance.r, total ? one : f.reflectance.g,
-				      total ? one : f.reflectance.b);
-	r.transmittance = lobe_rgb_select(!total, f.transmittance);
-	r.mean_reflectance = total ? one : f.mean_reflectance;
-	r.mean_transmittance = total ? zero : f.mean_transmittance;
-	return r;
+	const int inside = v.e < LOBE_R(1.0);
+	return lobe_thin_film_dielectric_rgb(inside ? fr.cos_t : c, p.film, inside ? v.inv_e : v.e);
 }
 
 /* The share of an event and its mean. */
