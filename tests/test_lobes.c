@@ -258,12 +258,19 @@ static double index_condition(const test_case *c, lobe_vec3 wo, lobe_vec3 wi)
 	return (4.0 * slope / q + 1.0 / oh + 1.0 / ih) * fmax(1.0, e) + tir + e / fabs(e - 1.0);
 }
 
-static lobe_bsdf with_transport(lobe_bsdf b, lobe_uint transport)
+/* What both sides see of a cavity's side is G1(o) + G1(i) - 1, a difference where little is left. */
+static double cavity_condition(const test_case *c, lobe_vec3 wo, lobe_vec3 wi)
 {
-	if (b.kind == LOBE_KIND_MICROFACET_DIELECTRIC)
-		return lobe_bsdf_from_microfacet_dielectric(
-			lobe_microfacet_dielectric_transport(b.as.microfacet_dielectric, transport));
-	return lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_transport(b.as.ggx_dielectric, transport));
+	if (c->kind != LOBE_KIND_MICROFACET_DIELECTRIC || wo.z * wi.z > 0.0f ||
+	    c->bsdf.as.microfacet_dielectric.surface.masking != LOBE_MASKING_VCAVITY)
+		return 0.0;
+	const double e = wo.z > 0.0f ? c->eta : 1.0 / c->eta;
+	const double x = (double)wo.x + e * (double)wi.x, y = (double)wo.y + e * (double)wi.y,
+		     z = (double)wo.z + e * (double)wi.z;
+	const double oh = (double)wo.x * x + (double)wo.y * y + (double)wo.z * z;
+	const double ih = (double)wi.x * x + (double)wi.y * y + (double)wi.z * z;
+	const double g_o = fmin(1.0, fabs(2.0 * z * (double)wo.z / oh)), g_i = fmin(1.0, fabs(2.0 * z * (double)wi.z / ih));
+	return (g_o + g_i) * (1.0 + e / fabs(z) + 1.0 / fabs(oh) + e / fabs(ih)) / fabs(g_o + g_i - 1.0);
 }
 
 /* f(wo,wi) n_i^2 = f(wi,wo) n_o^2 for radiance, and the importance of one way is the radiance of the other. */

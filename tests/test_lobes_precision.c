@@ -104,7 +104,7 @@ static const lobe_microsurface *surface_of(const test_case *c)
 	}
 }
 
-/* A linear map's own cancellations: H on the surface of width 1, of whose squared length D is the power -2, and the area
+/* A linear map's own cancellations: H on the surface of width 1, of whose squared length D is a negative power, and the area
  * of the mean plane, z - mean.w, as each direction sees it; and the logarithm of the beta function, whose error comes
  * with it. undecided: which face of the mean plane is seen hangs on the last bits. */
 static double surface_condition(const lobe_microsurface *s, const double o[3], const double i[3], const double h[3],
@@ -117,7 +117,13 @@ static double surface_condition(const lobe_microsurface *s, const double o[3], c
 	const double fx = (double)m->ixx * x + (double)m->ixy * y, fy = (double)m->iyx * x + (double)m->iyy * y;
 	const double big_fx = fabs((double)m->ixx) * big_x + fabs((double)m->ixy) * big_y;
 	const double big_fy = fabs((double)m->iyx) * big_x + fabs((double)m->iyy) * big_y;
-	double sum = 4.0 * ((fabs(fx) * big_fx + fabs(fy) * big_fy + hz * hz) / (fx * fx + fy * fy + hz * hz) - 1.0);
+	/* D is a power of 1 + tan^2; other than GGX's it is the exponential of a logarithm, whose error grows with it. */
+	const lobe_distribution d = s->distribution;
+	const double power = d.ndf == LOBE_NDF_PHONG ? 0.5 * (double)d.exponent + 2.0 : fmax(2.0, (double)d.exponent);
+	const double length2 = fx * fx + fy * fy + hz * hz;
+	double sum = 2.0 * power * ((fabs(fx) * big_fx + fabs(fy) * big_fy + hz * hz) / length2 - 1.0);
+	if (d.ndf != LOBE_NDF_GGX)
+		sum += 4.0 * power * log(length2 / (hz * hz));
 	double log_beta = 0.0, gammas = 0.0;
 	const double *const w[2] = {o, i};
 	for (int k = 0; k < 2; k++) {
