@@ -33,13 +33,19 @@ typedef struct {
 
 static const field fields_lambert[] = {RGB(lambert, reflectance, 0, 1)};
 
-static const field fields_ggx_conductor[] = {STRETCH(ggx_conductor), RGB(ggx_conductor, eta, 0.99999e-3, 1000),
-					     RGB(ggx_conductor, k, 0, 1000)};
+/* microfacet/conductor.h */
+#define ROUGH_CONDUCTOR(lobe) STRETCH(lobe), RGB(lobe, eta, 0.99999e-3, 1000), RGB(lobe, k, 0, 1000)
 
-static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric), REAL(ggx_dielectric, eta, 0.99999e-3, 1000.01),
-					      REAL(ggx_dielectric, inv_eta, 0.99999e-3, 1000.01),
-					      UINT(ggx_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
-					      UINT(ggx_dielectric, delta, 1)};
+static const field fields_ggx_conductor[] = {ROUGH_CONDUCTOR(ggx_conductor)};
+static const field fields_beckmann_conductor[] = {ROUGH_CONDUCTOR(beckmann_conductor)};
+
+/* microfacet/dielectric.h */
+#define ROUGH_DIELECTRIC(lobe)                                                                                         \
+	STRETCH(lobe), REAL(lobe, eta, 0.99999e-3, 1000.01), REAL(lobe, inv_eta, 0.99999e-3, 1000.01),                 \
+		UINT(lobe, transport, LOBE_TRANSPORT_IMPORTANCE), UINT(lobe, delta, 1)
+
+static const field fields_ggx_dielectric[] = {ROUGH_DIELECTRIC(ggx_dielectric)};
+static const field fields_beckmann_dielectric[] = {ROUGH_DIELECTRIC(beckmann_dielectric)};
 
 static const struct {
 	uint32_t kind;

@@ -94,22 +94,56 @@ static const recipe ggx_dielectric_recipes[] = {
 	{"eta .999 .3", {0.3, 0.3, 0.999, RADIANCE}},
 };
 
+static const recipe beckmann_conductor_recipes[] = {
+	{"beckmann gold .0001", {1e-4, 1e-4, METAL(GOLD)}},
+	{"beckmann silver .01", {0.01, 0.01, METAL(SILVER)}},
+	{"beckmann gold .25", {0.25, 0.25, METAL(GOLD)}},
+	{"beckmann chromium .5", {0.5, 0.5, METAL(CHROMIUM)}},
+	{"beckmann tungsten 1", {1, 1, METAL(TUNGSTEN)}},
+	{"beckmann copper .05:.4", {0.05, 0.4, METAL(COPPER)}},
+	{"beckmann nickel 1:.0001", {1, 1e-4, METAL(NICKEL)}},
+};
+
+static const recipe beckmann_dielectric_recipes[] = {
+	{"beckmann glass .0001", {1e-4, 1e-4, 1.5, RADIANCE}},
+	{"beckmann glass .3 importance", {0.3, 0.3, 1.5, IMPORTANCE}},
+	{"beckmann bubble .2", {0.2, 0.2, 1 / 1.5, RADIANCE}},
+	{"beckmann glass 1", {1, 1, 1.5, RADIANCE}},
+	{"beckmann water .4:.05", {0.4, 0.05, 1.3334, RADIANCE}},
+	{"beckmann eta 1 .1", {0.1, 0.1, 1, RADIANCE}},
+	{"beckmann eta 1.001 .5", {0.5, 0.5, 1.001, IMPORTANCE}},
+};
+
 static void describe_lambert(test_case *c) { c->flags = CASE_TWO_SIDED | CASE_RECIPROCAL; }
 
-static void describe_ggx_conductor(test_case *c)
+static void describe_rough_conductor(test_case *c, textbook_ndf ndf)
 {
 	c->alpha_x = c->parameter[0];
 	c->alpha_y = c->parameter[1];
 	c->flags = CASE_RECIPROCAL;
+	c->ndf = ndf;
 }
 
-static void describe_ggx_dielectric(test_case *c)
+static void describe_rough_dielectric(test_case *c, textbook_ndf ndf, lobe_rough_dielectric p)
 {
 	c->alpha_x = c->parameter[0];
 	c->alpha_y = c->parameter[1];
 	c->eta = c->parameter[2];
-	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_RECIPROCAL |
-		   (c->bsdf.as.ggx_dielectric.delta != 0u ? CASE_DELTA : 0u);
+	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_RECIPROCAL | (p.delta != 0u ? CASE_DELTA : 0u);
+	c->ndf = ndf;
+}
+
+static void describe_ggx_conductor(test_case *c) { describe_rough_conductor(c, TEXTBOOK_GGX); }
+static void describe_beckmann_conductor(test_case *c) { describe_rough_conductor(c, TEXTBOOK_BECKMANN); }
+
+static void describe_ggx_dielectric(test_case *c)
+{
+	describe_rough_dielectric(c, TEXTBOOK_GGX, c->bsdf.as.ggx_dielectric);
+}
+
+static void describe_beckmann_dielectric(test_case *c)
+{
+	describe_rough_dielectric(c, TEXTBOOK_BECKMANN, c->bsdf.as.beckmann_dielectric);
 }
 
 #define MAX_CASES 256

@@ -10,6 +10,7 @@
 #define LOBE_TESTS_CASES_H
 
 #include "lobe/shading.h"
+#include "textbook.h"
 
 #include <stddef.h>
 
@@ -32,6 +33,7 @@ typedef struct {
 	lobe_bsdf bsdf;
 	unsigned flags;
 	double alpha_x, alpha_y, eta;
+	textbook_ndf ndf; /* of a lobe with a microsurface */
 } test_case;
 
 size_t case_count(void);

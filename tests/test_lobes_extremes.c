@@ -241,15 +241,20 @@ typedef struct {
 #lobe "." #member, offsetof(lobe_##lobe, member), channel                                              \
 	}
 #define RGB_FIELD(lobe, member) FIELD(lobe, member.r, 0), FIELD(lobe, member.g, 1), FIELD(lobe, member.b, 2)
-#define GGX_FIELD(lobe)                                                                                                \
+#define STRETCH_FIELD(lobe)                                                                                                \
 	FIELD(lobe, stretch.alpha_x, -1), FIELD(lobe, stretch.alpha_y, -1), FIELD(lobe, stretch.inv_alpha_x, -1),                  \
 		FIELD(lobe, stretch.inv_alpha_y, -1), FIELD(lobe, stretch.norm, -1)
 
 static const field fields_lambert[] = {RGB_FIELD(lambert, reflectance)};
-static const field fields_ggx_conductor[] = {GGX_FIELD(ggx_conductor), RGB_FIELD(ggx_conductor, eta),
+static const field fields_ggx_conductor[] = {STRETCH_FIELD(ggx_conductor), RGB_FIELD(ggx_conductor, eta),
 					     RGB_FIELD(ggx_conductor, k)};
-static const field fields_ggx_dielectric[] = {GGX_FIELD(ggx_dielectric), FIELD(ggx_dielectric, eta, -1),
+static const field fields_ggx_dielectric[] = {STRETCH_FIELD(ggx_dielectric), FIELD(ggx_dielectric, eta, -1),
 					      FIELD(ggx_dielectric, inv_eta, -1)};
+
+static const field fields_beckmann_conductor[] = {STRETCH_FIELD(beckmann_conductor), RGB_FIELD(beckmann_conductor, eta),
+						  RGB_FIELD(beckmann_conductor, k)};
+static const field fields_beckmann_dielectric[] = {STRETCH_FIELD(beckmann_dielectric), FIELD(beckmann_dielectric, eta, -1),
+						   FIELD(beckmann_dielectric, inv_eta, -1)};
 
 static unsigned poisoned, shaded;
 
@@ -267,6 +272,10 @@ static void poison(const test_case *c, const field *f, size_t n)
 			    (f[i].offset == offsetof(lobe_ggx_dielectric, eta) ||
 			     f[i].offset == offsetof(lobe_ggx_dielectric, inv_eta)))
 				b.as.ggx_dielectric.eta = b.as.ggx_dielectric.inv_eta = values[k];
+			if (c->kind == LOBE_KIND_BECKMANN_DIELECTRIC &&
+			    (f[i].offset == offsetof(lobe_beckmann_dielectric, eta) ||
+			     f[i].offset == offsetof(lobe_beckmann_dielectric, inv_eta)))
+				b.as.beckmann_dielectric.eta = b.as.beckmann_dielectric.inv_eta = values[k];
 			double sum = 0.0;
 			for (int channel = 0; channel < 3; channel++)
 				if (f[i].channel < 0 || f[i].channel == channel)
@@ -319,6 +328,11 @@ static void test_arguments_that_are_no_numbers(void)
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, nan, 1.5f)),
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, nan)),
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, INFINITY)),
+		lobe_bsdf_from_beckmann_conductor(lobe_beckmann_conductor_make(nan, 0.5f, n, k)),
+		lobe_bsdf_from_beckmann_conductor(lobe_beckmann_conductor_make(0.5f, nan, n, k)),
+		lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(nan, 0.5f, 1.5f)),
+		lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(0.5f, nan, 1.5f)),
+		lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(0.5f, 0.5f, nan)),
 	};
 	unsigned not_zero = 0;
 	for (size_t i = 0; i < sizeof b / sizeof *b; i++)

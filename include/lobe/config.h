@@ -25,16 +25,24 @@
 #ifndef LOBE_HAS_GGX_DIELECTRIC
 #define LOBE_HAS_GGX_DIELECTRIC LOBE_HAS_DEFAULT
 #endif
+#ifndef LOBE_HAS_BECKMANN_CONDUCTOR
+#define LOBE_HAS_BECKMANN_CONDUCTOR LOBE_HAS_DEFAULT
+#endif
+#ifndef LOBE_HAS_BECKMANN_DIELECTRIC
+#define LOBE_HAS_BECKMANN_DIELECTRIC LOBE_HAS_DEFAULT
+#endif
 
 /* The distributions of microfacet normals that those lobes need. */
 #ifndef LOBE_HAS_NDF_GGX
 #define LOBE_HAS_NDF_GGX (LOBE_HAS_GGX_CONDUCTOR || LOBE_HAS_GGX_DIELECTRIC)
 #endif
 #ifndef LOBE_HAS_NDF_BECKMANN
-#define LOBE_HAS_NDF_BECKMANN 0
+#define LOBE_HAS_NDF_BECKMANN (LOBE_HAS_BECKMANN_CONDUCTOR || LOBE_HAS_BECKMANN_DIELECTRIC)
 #endif
 
 /* The linked library has every lobe; its lobe_bsdf is a union over them all. */
-#define LOBE_HAS_ALL (LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC)
+#define LOBE_HAS_ALL                                                                                                   \
+	(LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC && LOBE_HAS_BECKMANN_CONDUCTOR &&       \
+	 LOBE_HAS_BECKMANN_DIELECTRIC)
 
 #endif

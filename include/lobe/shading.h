@@ -12,6 +12,7 @@
 #include "core/fresnel.h"
 #include "core/optics.h"
 #include "microfacet/ggx.h"
+#include "microfacet/beckmann.h"
 #include "bsdf.h"
 
 #endif
