@@ -34,6 +34,21 @@ static lobe_bsdf material_ggx_dielectric(void)
 }
 #endif
 
+#if LOBE_HAS_BECKMANN_CONDUCTOR
+static lobe_bsdf material_beckmann_conductor(void)
+{
+	return lobe_bsdf_from_beckmann_conductor(lobe_beckmann_conductor_make(
+		0.3f, 0.2f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
+}
+#endif
+
+#if LOBE_HAS_BECKMANN_DIELECTRIC
+static lobe_bsdf material_beckmann_dielectric(void)
+{
+	return lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(0.3f, 0.2f, 1.5f));
+}
+#endif
+
 #if LOBE_HAS_GGX_SCHLICK
 static lobe_bsdf material_ggx_schlick(void)
 {

@@ -44,6 +44,13 @@ static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric, stretch), 
 					      INDEX(ggx_dielectric, inv_eta), TRANSPORT(ggx_dielectric, transport),
 					      UINT(ggx_dielectric, delta, 1)};
 
+static const field fields_beckmann_conductor[] = {STRETCH(beckmann_conductor, stretch), METAL(beckmann_conductor)};
+
+static const field fields_beckmann_dielectric[] = {STRETCH(beckmann_dielectric, stretch), INDEX(beckmann_dielectric, eta),
+						   INDEX(beckmann_dielectric, inv_eta),
+						   TRANSPORT(beckmann_dielectric, transport),
+						   UINT(beckmann_dielectric, delta, 1)};
+
 static const field fields_ggx_schlick[] = {STRETCH(ggx_schlick, stretch), RGB(ggx_schlick, f0, 0, 1),
 					   RGB(ggx_schlick, f90, 0, 1)};
 
@@ -78,7 +85,7 @@ static const field fields_iridescent_dielectric[] = {
 		REAL(lobe, map.iyy, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                                                    \
 		REAL(lobe, map.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
 #define DISTRIBUTION(lobe, member)                                                                                     \
-	UINT(lobe, member.ndf, LOBE_NDF_LIMIT - 1), REAL(lobe, member.exponent, -FLT_MAX, FLT_MAX),                    \
+	UINT(lobe, member.ndf, LOBE_NDF_TABULATED), REAL(lobe, member.exponent, -FLT_MAX, FLT_MAX),                    \
 		REAL(lobe, member.width, 0, 1000), REAL(lobe, member.norm, 0, FLT_MAX),                                \
 		UINT(lobe, member.table.low, UINT32_MAX), UINT(lobe, member.table.high, UINT32_MAX)
 #define MICROSURFACE(lobe)                                                                                             \

@@ -94,6 +94,26 @@ static const recipe ggx_dielectric_recipes[] = {
 	{"eta .999 .3", {0.3, 0.3, 0.999, RADIANCE}},
 };
 
+static const recipe beckmann_conductor_recipes[] = {
+	{"beckmann gold .0001", {1e-4, 1e-4, METAL(GOLD)}},
+	{"beckmann silver .01", {0.01, 0.01, METAL(SILVER)}},
+	{"beckmann gold .25", {0.25, 0.25, METAL(GOLD)}},
+	{"beckmann chromium .5", {0.5, 0.5, METAL(CHROMIUM)}},
+	{"beckmann tungsten 1", {1, 1, METAL(TUNGSTEN)}},
+	{"beckmann copper .05:.4", {0.05, 0.4, METAL(COPPER)}},
+	{"beckmann nickel 1:.0001", {1, 1e-4, METAL(NICKEL)}},
+};
+
+static const recipe beckmann_dielectric_recipes[] = {
+	{"beckmann glass .0001", {1e-4, 1e-4, 1.5, RADIANCE}},
+	{"beckmann glass .3 importance", {0.3, 0.3, 1.5, IMPORTANCE}},
+	{"beckmann bubble .2", {0.2, 0.2, 1 / 1.5, RADIANCE}},
+	{"beckmann glass 1", {1, 1, 1.5, RADIANCE}},
+	{"beckmann water .4:.05", {0.4, 0.05, 1.3334, RADIANCE}},
+	{"beckmann eta 1 .1", {0.1, 0.1, 1, RADIANCE}},
+	{"beckmann eta 1.001 .5", {0.5, 0.5, 1.001, IMPORTANCE}},
+};
+
 static const recipe ggx_schlick_recipes[] = {
 	{"plastic .1", {0.1, 0.1, 0.04, 0.04, 0.04, 1, 1, 1}},
 	{"gold colour .5", {0.5, 0.5, 1, 0.77, 0.34, 1, 1, 1}},
@@ -178,6 +198,9 @@ static const recipe microfacet_conductor_recipes[] = {
 	{"gtr 1.5 visible f82",
 	 {1, 0.7, 0.9, 0.7, 0.4, 0.1, 0.2, 0.3, SURFACE(LOBE_NDF_GTR, 1.5, 0.3, 0, 0, 0, 0),
 	  MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE, F82)}},
+	{"beckmann rational .4:.2",
+	 {0.4, 0.2, GREY(0.8, 0), SURFACE(LOBE_NDF_BECKMANN, 0, 1, 0, 0, 0, 0), MASKING(SMITH_RATIONAL, HEIGHT, SEPARABLE),
+	  BY(VISIBLE, CONSTANT)}},
 	{"iron neumann cosine .5",
 	 {0.5, 0.5, METAL(IRON), 0, 0, 0, 0, 0, GGX, MASKING(NEUMANN, HEIGHT, SEPARABLE), BY(COSINE, EXACT)}},
 };
@@ -207,20 +230,34 @@ static const recipe microfacet_dielectric_recipes[] = {
 
 static void describe_lambert(test_case *c) { c->flags = CASE_TWO_SIDED | CASE_RECIPROCAL; }
 
-static void describe_ggx_conductor(test_case *c)
+static void describe_rough_conductor(test_case *c, textbook_ndf ndf)
 {
 	c->alpha_x = c->parameter[0];
 	c->alpha_y = c->parameter[1];
 	c->flags = CASE_RECIPROCAL;
+	c->ndf = ndf;
 }
 
-static void describe_ggx_dielectric(test_case *c)
+static void describe_rough_dielectric(test_case *c, textbook_ndf ndf, lobe_rough_dielectric p)
 {
 	c->alpha_x = c->parameter[0];
 	c->alpha_y = c->parameter[1];
 	c->eta = c->parameter[2];
-	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_RECIPROCAL |
-		   (c->bsdf.as.ggx_dielectric.delta != 0u ? CASE_DELTA : 0u);
+	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_RECIPROCAL | (p.delta != 0u ? CASE_DELTA : 0u);
+	c->ndf = ndf;
+}
+
+static void describe_ggx_conductor(test_case *c) { describe_rough_conductor(c, TEXTBOOK_GGX); }
+static void describe_beckmann_conductor(test_case *c) { describe_rough_conductor(c, TEXTBOOK_BECKMANN); }
+
+static void describe_ggx_dielectric(test_case *c)
+{
+	describe_rough_dielectric(c, TEXTBOOK_GGX, c->bsdf.as.ggx_dielectric);
+}
+
+static void describe_beckmann_dielectric(test_case *c)
+{
+	describe_rough_dielectric(c, TEXTBOOK_BECKMANN, c->bsdf.as.beckmann_dielectric);
 }
 
 static void describe_ggx_schlick(test_case *c) { describe_ggx_conductor(c); }
@@ -269,6 +306,7 @@ static void describe_microsurface(test_case *c, lobe_microsurface s, lobe_uint s
 {
 	c->alpha_x = c->parameter[0] * (double)s.like;
 	c->alpha_y = c->parameter[1] * (double)s.like;
+	c->ndf = s.distribution.ndf == LOBE_NDF_BECKMANN ? TEXTBOOK_BECKMANN : TEXTBOOK_GGX;
 	c->flags |= is_light(s, strategy) ? 0u : CASE_HEAVY;
 	c->flags |= s.map.mean_x == 0.0f && s.map.mean_y == 0.0f ? CASE_RECIPROCAL : 0u;
 }

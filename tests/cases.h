@@ -10,6 +10,7 @@
 #define LOBE_TESTS_CASES_H
 
 #include "lobe/shading.h"
+#include "textbook.h"
 
 #include <stddef.h>
 
@@ -37,6 +38,7 @@ typedef struct {
 	unsigned flags;
 	double alpha_x, alpha_y, eta;
 	int transport_at;
+	textbook_ndf ndf; /* of a lobe with a microsurface */
 } test_case;
 
 size_t case_count(void);

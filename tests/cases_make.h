@@ -26,6 +26,18 @@ static lobe_ggx_dielectric make_ggx_dielectric(const double *p)
 		lobe_ggx_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]), (lobe_uint)p[3]);
 }
 
+/* The same arguments. */
+static lobe_beckmann_conductor make_beckmann_conductor(const double *p)
+{
+	return lobe_beckmann_conductor_make((lobe_real)p[0], (lobe_real)p[1], make_rgb(p + 2), make_rgb(p + 5));
+}
+
+static lobe_beckmann_dielectric make_beckmann_dielectric(const double *p)
+{
+	return lobe_beckmann_dielectric_transport(
+		lobe_beckmann_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]), (lobe_uint)p[3]);
+}
+
 /* alpha_x, alpha_y, f0.rgb, f90.rgb */
 static lobe_ggx_schlick make_ggx_schlick(const double *p)
 {

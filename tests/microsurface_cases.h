@@ -18,6 +18,7 @@ typedef struct {
 
 static const shape_case shapes[] = {
 	{"GGX", LOBE_NDF_GGX, 0, 1},
+	{"Beckmann", LOBE_NDF_BECKMANN, 0, 1},
 	{"Phong 20", LOBE_NDF_PHONG, 20, 1},
 	{"GTR 1.5 .3", LOBE_NDF_GTR, 1.5, 0.3},
 	{"GTR 3 .5", LOBE_NDF_GTR, 3, 0.5},

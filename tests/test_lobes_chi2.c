@@ -103,8 +103,8 @@ static double delta_share(void *context, double x, double y)
 		return 0.0;
 	const double area = map_facet(m, x, y, facet);
 	const double c = textbook_dot(m->o, facet);
-	const double g1_over_z = 1.0 / (m->o[2] * (1.0 + textbook_ggx_lambda(m->ax, m->ay, m->o)));
-	return area * textbook_ggx_d(m->ax, m->ay, facet) * c * g1_over_z * (1.0 - textbook_fresnel(c, m->e));
+	const double g1_over_z = 1.0 / (m->o[2] * (1.0 + textbook_lambda(s->c->ndf, m->ax, m->ay, m->o)));
+	return area * textbook_d(s->c->ndf, m->ax, m->ay, facet) * c * g1_over_z * (1.0 - textbook_fresnel(c, m->e));
 }
 
 static scene scene_make(const test_case *c, lobe_vec3 wo, int in_double, int wrong)
@@ -390,7 +390,7 @@ static const test_case *case_named(const char *name)
 static void test_a_wrong_pdf_is_caught(void)
 {
 	static const char *const names[] = {"lambert grey", "gold .25", "copper .05:.4", "glass .3 importance",
-					    "bubble .2"};
+					    "bubble .2", "beckmann gold .25"};
 	histogram *h = malloc(sizeof *h);
 	TEST_ASSERT_NOT_NULL(h);
 	for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -405,6 +405,8 @@ static void test_a_wrong_pdf_is_caught(void)
 					s.wrong_bsdf.as.ggx_conductor.stretch = lobe_stretch_make(ax, ay);
 				else if (c->kind == LOBE_KIND_GGX_DIELECTRIC)
 					s.wrong_bsdf.as.ggx_dielectric.stretch = lobe_stretch_make(ax, ay);
+				else if (c->kind == LOBE_KIND_BECKMANN_CONDUCTOR)
+					s.wrong_bsdf.as.beckmann_conductor.stretch = lobe_stretch_make(ax, ay);
 				else
 					continue;
 			}

@@ -143,7 +143,7 @@ static void test_ends_of_the_parameters(void)
 	static const float etas[] = {1e-3f,         1.0f / 3.0f,   0x1.ffffdep-1f, 0x1.fffffep-1f, 1.0f,
 				     0x1.000002p0f, 0x1.000010p0f, 1.0001f,        1.5f,           1000.0f};
 	static const float indices[] = {1e-3f, 1.0f, 3.0f, 1000.0f};
-	test_case c = {"end of a parameter", 0, {0}, {0}, 0, 0, 0, 0, 0};
+	test_case c = {"end of a parameter", 0, {0}, {0}, 0, 0, 0, 0, 0, TEXTBOOK_GGX};
 	evaluations = samples = kept = bad = 0;
 	for (size_t a = 0; a < 25; a++) {
 		const float ax = alphas[a % 5], ay = alphas[a / 5];
@@ -198,7 +198,7 @@ static lobe_bsdf fresnel_end(unsigned i)
 
 static void test_ends_of_the_fresnel_parameters(void)
 {
-	test_case c = {"end of a Fresnel parameter", 0, {0}, {0}, 0, 0, 0, 0, 0};
+	test_case c = {"end of a Fresnel parameter", 0, {0}, {0}, 0, 0, 0, 0, 0, TEXTBOOK_GGX};
 	evaluations = samples = kept = bad = 0;
 	for (unsigned i = 0; i < 6u * 240u; i++) {
 		c.bsdf = fresnel_end(i);
@@ -334,6 +334,11 @@ static const field fields_microfacet_dielectric[] = {MICROSURFACE_FIELD(microfac
 						     FIELD(microfacet_dielectric, eta, -1),
 						     FIELD(microfacet_dielectric, inv_eta, -1)};
 
+static const field fields_beckmann_conductor[] = {STRETCH_FIELD(beckmann_conductor, stretch),
+						  RGB_FIELD(beckmann_conductor, eta), RGB_FIELD(beckmann_conductor, k)};
+static const field fields_beckmann_dielectric[] = {STRETCH_FIELD(beckmann_dielectric, stretch),
+						   ETA_FIELD(beckmann_dielectric, eta, inv_eta)};
+
 static unsigned poisoned, shaded;
 
 static void poison(const test_case *c, const field *f, size_t n)
@@ -396,6 +401,11 @@ static void test_arguments_that_are_no_numbers(void)
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, nan, 1.5f)),
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, nan)),
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, INFINITY)),
+		lobe_bsdf_from_beckmann_conductor(lobe_beckmann_conductor_make(nan, 0.5f, n, k)),
+		lobe_bsdf_from_beckmann_conductor(lobe_beckmann_conductor_make(0.5f, nan, n, k)),
+		lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(nan, 0.5f, 1.5f)),
+		lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(0.5f, nan, 1.5f)),
+		lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(0.5f, 0.5f, nan)),
 		lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(nan, 0.5f, n, n)),
 		lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(0.5f, 0.5f, lobe_rgb_make(nan, nan, nan), n)),
 		lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(0.5f, 0.5f, n, lobe_rgb_make(nan, nan, nan))),

@@ -16,6 +16,7 @@
 #include "core/thin_film.h"
 #include "core/optics.h"
 #include "microfacet/ggx.h"
+#include "microfacet/beckmann.h"
 #include "microfacet/distribution.h"
 #include "bsdf.h"
 

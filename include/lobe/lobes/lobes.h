@@ -13,6 +13,12 @@
 #if LOBE_HAS_GGX_DIELECTRIC
 #include "ggx_dielectric.h"
 #endif
+#if LOBE_HAS_BECKMANN_CONDUCTOR
+#include "beckmann_conductor.h"
+#endif
+#if LOBE_HAS_BECKMANN_DIELECTRIC
+#include "beckmann_dielectric.h"
+#endif
 #if LOBE_HAS_GGX_SCHLICK
 #include "ggx_schlick.h"
 #endif

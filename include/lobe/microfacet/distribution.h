@@ -11,6 +11,7 @@
 #include "../core/warp.h"
 #include "facet.h"
 #include "shape.h"
+#include "beckmann.h"
 #include "ggx.h"
 #include "gtr.h"
 #include "phong.h"
