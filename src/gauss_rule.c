@@ -42,7 +42,8 @@ static void jacobi(int n, double a[LOBE_GAUSS_MAX][LOBE_GAUSS_MAX], double *firs
 }
 
 /* From recurrence coefficients: diagonal, off-diagonal squared, total weight. */
-static void rule_from_recurrence(int n, const double *diagonal, const double *square, double total, double *x, double *w)
+static void rule_from_recurrence(int n, const double *diagonal, const double *square, double total, double *x,
+				 double *w)
 {
 	double a[LOBE_GAUSS_MAX][LOBE_GAUSS_MAX] = {{0}}, first[LOBE_GAUSS_MAX];
 	for (int i = 0; i < n; i++) {

@@ -10,12 +10,15 @@
 #define TAIL_X_MAX   1e34
 #define HIDDEN_X_MAX 1e10
 
+/* Pieces narrower than a few steps of a float's log X tell nothing apart. */
+#define NARROWEST 1e-6
+
 /* log value and its fall at a place, both as functions of l = log X. */
 typedef struct {
 	double l, log_value, slope;
 } knot;
 
-/* One of the two curves; t0: median of tan^2. */
+/* One of the two curves; t0: the square of the steepness that its places are counted in. */
 typedef struct {
 	const lobe_slope_measure *s;
 	double t0;
@@ -70,6 +73,8 @@ typedef struct {
 static double piece_error(const curve *c, const piece *p, double log_top)
 {
 	const double width = p->b.l - p->a.l, fall = p->a.log_value - p->b.log_value;
+	if (width < NARROWEST)
+		return 0.0;
 	const double m0 = limited(p->a.slope, width, fall), m1 = limited(p->b.slope, width, fall);
 	const double cubic = m0 + m1 - 2.0 * fall, square = fall - m0 - cubic;
 	double worst = 0.0;
@@ -85,31 +90,29 @@ static double piece_error(const curve *c, const piece *p, double log_top)
 	}
 	worst = worst < 1.0 ? worst : 1.0;
 	const double depth = log_top - p->a.log_value;
-	const double share = c->hidden ? 0.0 : 1e-4 * width * width * width * width * exp(-0.5 * depth);
+	/* In the first piece steepness is a square root of the place. */
+	const double sums = p->a.l > 0.0 ? 1e-3 * pow(width, 4.0) : 1e-2 * pow(width, 1.5);
+	const double share = c->hidden ? 0.0 : sums * exp(-0.5 * depth);
 	return worst * exp(-0.1 * depth) * fmin(width / 0.02, 1.0) + share + 1e-12 * width;
 }
 
-/* The steepest u whose tail is LOWEST or more. */
-static double last_u(const lobe_slope_measure *s)
+/* The largest place where the curve has not yet fallen to LOWEST of its largest value. */
+static double last_l(const curve *c)
 {
-	double lo = s->edge[0], hi = s->edge[s->panels];
-	if (lobe_slope_tail(s, hi) >= LOWEST)
+	const double log_lowest = knot_at(c, 0.0).log_value + log(LOWEST);
+	double lo = 0.0, hi = log(c->hidden ? HIDDEN_X_MAX : TAIL_X_MAX);
+	const double edge = l_of_r(c, c->s->edge[c->s->panels]);
+	hi = edge < hi ? edge : hi;
+	if (knot_at(c, hi).log_value >= log_lowest)
 		return hi;
 	for (int i = 0; i < 60; i++) {
 		const double middle = 0.5 * (lo + hi);
-		if (lobe_slope_tail(s, middle) >= LOWEST)
+		if (knot_at(c, middle).log_value >= log_lowest)
 			lo = middle;
 		else
 			hi = middle;
 	}
 	return lo;
-}
-
-static double last_l(const curve *c)
-{
-	const double x_max = c->hidden ? HIDDEN_X_MAX : TAIL_X_MAX;
-	const double end = l_of_r(c, last_u(c->s));
-	return end < log(x_max) ? end : log(x_max);
 }
 
 /* Splits the worst piece until there are enough, in order. */
@@ -203,13 +206,13 @@ static lobe_status make_rules(const curve *tail, const piece *pieces, float *wor
 	return LOBE_OK;
 }
 
-/* tan^2 of tail 1/2. */
-static double median(const lobe_slope_measure *s)
+/* tan^2 of tail q. */
+static double quantile(const lobe_slope_measure *s, double q)
 {
 	double lo = s->edge[0], hi = s->edge[s->panels];
 	for (int i = 0; i < 60; i++) {
 		const double middle = 0.5 * (lo + hi);
-		if (lobe_slope_tail(s, middle) > 0.5)
+		if (lobe_slope_tail(s, middle) > q)
 			lo = middle;
 		else
 			hi = middle;
@@ -219,15 +222,15 @@ static double median(const lobe_slope_measure *s)
 
 static lobe_status build(const lobe_slope_measure *s, piece *pieces, float *words)
 {
-	const double t0 = median(s);
-	if (!(t0 > 1e-24 && t0 < 1e24))
+	const double t0 = quantile(s, 15.0 / 16.0), r0 = sqrt(quantile(s, 0.5));
+	if (!(t0 > 1e-24 && r0 < 1e12))
 		return lobe_fail(LOBE_ERROR_PARAMETER, "the median of tan_theta is %g: rescale f to a width of about 1",
-				 sqrt(t0));
-	const curve tail = {s, t0, 0}, hidden = {s, t0, 1};
+				 r0);
+	const curve tail = {s, t0, 0}, hidden = {s, r0 * r0, 1};
 	words[0] = (float)LOBE_PROFILE_WORDS;
 	words[LOBE_PROFILE_T0] = (float)t0;
 	words[LOBE_PROFILE_INV_T0] = (float)(1.0 / t0);
-	words[LOBE_PROFILE_INV_R0] = (float)(1.0 / sqrt(t0));
+	words[LOBE_PROFILE_INV_R0] = (float)(1.0 / r0);
 	fit(&hidden, pieces, LOBE_PROFILE_LEAVES);
 	write_curve(pieces, words + LOBE_PROFILE_HIDDEN);
 	fit(&tail, pieces, LOBE_PROFILE_LEAVES);

@@ -104,11 +104,15 @@ static lobe_status close_tail(lobe_slope_measure *s)
 		return LOBE_OK;
 	const double a = 2.0 + log(before / last);
 	if (!(a > 2.0))
-		return lobe_fail(LOBE_ERROR_PARAMETER, "f cannot be integrated: it falls as tan_theta^-%.4g, and not faster "
-						       "than tan_theta^-2", a);
+		return lobe_fail(LOBE_ERROR_PARAMETER,
+				 "f cannot be integrated: it falls as tan_theta^-%.4g, and not faster "
+				 "than tan_theta^-2",
+				 a);
 	if (!(a >= 3.0015))
-		return lobe_fail(LOBE_ERROR_PARAMETER, "the mean slope is infinite: f falls as tan_theta^-%.4g, and not "
-						       "faster than tan_theta^-3", a);
+		return lobe_fail(LOBE_ERROR_PARAMETER,
+				 "the mean slope is infinite: f falls as tan_theta^-%.4g, and not "
+				 "faster than tan_theta^-3",
+				 a);
 	s->beyond = last / (a - 2.0);
 	s->beyond_r = exp(U_MAX) * (a - 2.0) / (a - 3.0);
 	return LOBE_OK;
@@ -161,7 +165,8 @@ static lobe_status fill(lobe_slope_measure *s)
 		return lobe_fail(LOBE_ERROR_PARAMETER, "f is too large or too small to be integrated: %g", sum);
 	/* A density that is not integrable at the normal would show as a share of its first panel. */
 	if (s->above[0] - s->above[1] > 1e-3 * sum)
-		return lobe_fail(LOBE_ERROR_PARAMETER, "f cannot be integrated: it grows too fast towards tan_theta = 0");
+		return lobe_fail(LOBE_ERROR_PARAMETER,
+				 "f cannot be integrated: it grows too fast towards tan_theta = 0");
 	s->scale = 1.0 / sum;
 	s->beyond /= sum;
 	for (size_t k = 0; k <= s->panels; k++)

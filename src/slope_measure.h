@@ -19,8 +19,8 @@ typedef struct {
 	double *edge, *above, *r, *m;
 	double (*moment)[LOBE_MOMENTS]; /* [k]: of panel k and all beyond, the sums of m r^(1 - 2j), j = 0, 1, ... */
 	double beyond, beyond_r;
-	double x[LOBE_GAUSS_MAX], w[LOBE_GAUSS_MAX];             /* the panels' rule */
-	double fine_x[LOBE_GAUSS_MAX], fine_w[LOBE_GAUSS_MAX];   /* one of LOBE_GAUSS_MAX points */
+	double x[LOBE_GAUSS_MAX], w[LOBE_GAUSS_MAX];           /* the panels' rule */
+	double fine_x[LOBE_GAUSS_MAX], fine_w[LOBE_GAUSS_MAX]; /* one of LOBE_GAUSS_MAX points */
 } lobe_slope_measure;
 
 /* To be released by lobe_slope_measure_free, after failure too. */

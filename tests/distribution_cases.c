@@ -25,10 +25,7 @@ static double gtr(const distribution_case *c, double r)
 }
 
 /* Ribardiere et al. 2017. */
-static double student_t(const distribution_case *c, double r)
-{
-	return exp(-c->a * log1p(r * r / (c->a - 1.0))) / PI;
-}
+static double student_t(const distribution_case *c, double r) { return exp(-c->a * log1p(r * r / (c->a - 1.0))) / PI; }
 
 /* User-given ones, normalised by hand. A broad and a narrow Gaussian: half each. */
 static double two_gaussians(const distribution_case *c, double r)
@@ -52,6 +49,13 @@ static double steps(const distribution_case *c, double r)
 {
 	const double norm = PI * (0.8 * c->a * c->a + 0.2 * c->b * c->b);
 	return r < c->a ? 1.0 / norm : r < c->b ? 0.2 / norm : 0.0;
+}
+
+/* A disk, nothing, and a step: 1 up to a, 1/2 from b to b + a. */
+static double gap(const distribution_case *c, double r)
+{
+	const double norm = PI * (c->a * c->a + 0.5 * c->a * (2.0 * c->b + c->a));
+	return r < c->a ? 1.0 / norm : r > c->b && r < c->b + c->a ? 0.5 / norm : 0.0;
 }
 
 static distribution_case cases[] = {
@@ -83,6 +87,7 @@ static distribution_case cases[] = {
 	{"ring .5", ring, 0.5, 50, {0}, 1, {0}},
 	{"narrow ring .5", ring, 0.5, 5000, {0}, 1, {0}},
 	{"steps", steps, 0.7, 1.5, {0.7, 1.5, 0}, 0, {0}},
+	{"gap", gap, 0.25, 0.625, {0.25, 0.625, 0.875, 0}, 0, {0}},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
@@ -163,9 +168,9 @@ double ring_integral(const distribution_case *c, double r0, double r1, double (*
 		rule = gsl_integration_glfixed_table_alloc(16);
 	const double end = r1 < HUGE_VAL ? log(r1 - r0) : 1e3;
 	double sum = 0.0, y0 = -60.0;
-	/* Pieces of 1/2; of 1/50 where a ring may be. */
+	/* Pieces of 1/2; of 1/20 where a ring may be. */
 	while (y0 < end && y0 < 150.0) {
-		double y1 = y0 + (c->p22 == ring ? 0.02 : 0.5);
+		double y1 = y0 + (c->p22 == ring ? 0.05 : 0.5);
 		for (int i = 0; c->breaks[i] > 0.0; i++) {
 			const double y = c->breaks[i] > r0 ? log(c->breaks[i] - r0) : -1e3;
 			y1 = y > y0 + 1e-9 && y < y1 ? y : y1;

@@ -8,8 +8,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-#define U  0x1p-24
 #define PI 3.14159265358979323846
 
 static const distribution_case *cases;
@@ -62,7 +62,6 @@ static void test_normalisation(void)
 	for (size_t i = 0; i < count; i++) {
 		distribution_case c = cases[i];
 		const double error = fabs(ring_integral(&c, 0.0, HUGE_VAL, library_weight, &c) - 1.0);
-		printf("%s %g\n", c.name, error);
 		worst = worse(worst, error);
 	}
 	measured("|integral of D cos - 1|", worst, 3e-6);
@@ -90,13 +89,28 @@ static void add_error(errors *e, double got, double exact, double largest)
 		e->bulk = worse(e->bulk, error);
 }
 
-static void report(const char *what, const distribution_case *c, errors e, double all, double bulk)
+/* Bounds: closed forms; tables of user-given densities; and of one whose ring is a hundredth of its steepness wide, which is
+ * near the resolution of a float. */
+typedef struct {
+	double closed, tabulated, narrow;
+} bounds;
+
+static double bound_of(const distribution_case *c, bounds b)
+{
+	return c->d.ndf != LOBE_NDF_TABULATED           ? b.closed
+	       : strcmp(c->name, "narrow ring .5") != 0 ? b.tabulated
+							: b.narrow;
+}
+
+/* bulk: where the value is above 1e-4 of its largest; all: down to 1e-33 of it, where an exponential is that of 76 and more,
+ * whose 2 ulp are 2e-5 of the value. */
+static void report(const char *what, const distribution_case *c, errors e, bounds bulk, bounds all)
 {
 	char text[80];
 	snprintf(text, sizeof text, "%s: %s, bulk", c->name, what);
-	measured(text, e.bulk, bulk);
+	measured(text, e.bulk, bound_of(c, bulk));
 	snprintf(text, sizeof text, "%s: %s, all", c->name, what);
-	measured(text, e.all, all);
+	measured(text, e.all, bound_of(c, all));
 }
 
 static void test_density(void)
@@ -111,7 +125,11 @@ static void test_density(void)
 			const double r = steepness(c, k);
 			add_error(&e, library_p22(c, r), c->p22(c, r), largest);
 		}
-		report("density", c, e, 1e-4, 1e-4);
+		/* A cusp at the normal is what a table of tan^2 is worst at. What is next to nothing of a user-given density,
+		 * inside a ring above all, is smoothed away; so is the end of a density that jumps to 0. */
+		const bounds bulk = {2e-6, strcmp(c->name, "exponential") == 0 ? 5e-4 : c->smooth ? 3e-5 : 1e-4, 1e-4};
+		const bounds all = {2e-5, HUGE_VAL, HUGE_VAL};
+		report("density", c, e, bulk, all);
 	}
 }
 
@@ -129,8 +147,9 @@ static void test_tail(void)
 			const float t2_back = lobe_distribution_tail_inverse(c->d, (float)q);
 			add_error(&back, reference_tail(c, sqrt((double)t2_back)), (double)(float)q, 1.0);
 		}
-		report("tail", c, e, 1e-4, 1e-4);
-		report("tail of its inverse", c, back, 1e-4, 1e-4);
+		const bounds bulk = {2e-6, 4e-6, 2e-5}, all = {2e-5, 2e-5, 2e-5};
+		report("tail", c, e, bulk, all);
+		report("tail of its inverse", c, back, bulk, all);
 	}
 }
 
@@ -148,8 +167,13 @@ static void test_hidden(void)
 			const float below = lobe_distribution_hidden(c->d, lobe_vec3_make(x, y, -h));
 			add_error(&e, (double)above, exact, largest * s);
 			TEST_ASSERT_EQUAL_HEX32(test_float_bits(above), test_float_bits(below));
+			/* Degree 1. */
+			const float wide = lobe_distribution_hidden(c->d, lobe_vec3_make(4.0f * x, 4.0f * y, 4.0f * h));
+			if (above > 1e-35f)
+				TEST_ASSERT_EQUAL_HEX32(test_float_bits(4.0f * above), test_float_bits(wide));
 		}
-		report("hidden", c, e, 1e-4, 1e-4);
+		const bounds bulk = {3e-6, 5e-6, 1e-4}, all = {2e-5, 3e-5, 1e-4};
+		report("hidden", c, e, bulk, all);
 	}
 }
 

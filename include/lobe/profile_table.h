@@ -27,7 +27,8 @@ extern "C" {
 LOBE_API lobe_status lobe_distribution_phong(lobe_distribution *out, float *table, size_t words, float n);
 
 /* GTR with gamma in [0.01, 100] and alpha in [1e-4, 1] (gtr.h). The width is alpha: stretch by 1. */
-LOBE_API lobe_status lobe_distribution_gtr(lobe_distribution *out, float *table, size_t words, float gamma, float alpha);
+LOBE_API lobe_status lobe_distribution_gtr(lobe_distribution *out, float *table, size_t words, float gamma,
+					   float alpha);
 
 /* Student-T of width 1 with gamma in [1.501, 1e8] (student_t.h). */
 LOBE_API lobe_status lobe_distribution_student_t(lobe_distribution *out, float *table, size_t words, float gamma);

@@ -1,7 +1,7 @@
 /* powers.h - logarithms and exponentials near 1 and 0, where log(1 + x) and exp(x) - 1 cancel.
  *
  * What rounding 1 + x or exp(x) took away is put back by a quotient (Kahan): both functions keep the relative accuracy of
- * lobe_log and lobe_exp. Measured by tests/test_distributions.c: 4 ulp each. */
+ * lobe_log and lobe_exp. Measured by tests/test_distributions_forms.c: 2.4 ulp. */
 #ifndef LOBE_CORE_POWERS_H
 #define LOBE_CORE_POWERS_H
 
@@ -17,10 +17,7 @@ LOBE_FN lobe_real lobe_log1p_over(lobe_real x)
 }
 
 /* log(1 + x). Domain: x > -1, infinity too. */
-LOBE_FN lobe_real lobe_log1p(lobe_real x)
-{
-	return x > LOBE_R(1e+9) ? lobe_log(x) : x * lobe_log1p_over(x);
-}
+LOBE_FN lobe_real lobe_log1p(lobe_real x) { return x > LOBE_R(1e+9) ? lobe_log(x) : x * lobe_log1p_over(x); }
 
 /* exp(x) - 1. Domain: every number. */
 LOBE_FN lobe_real lobe_expm1(lobe_real x)
@@ -33,10 +30,7 @@ LOBE_FN lobe_real lobe_expm1(lobe_real x)
 }
 
 /* (exp(x) - 1)/x, 1 at 0. */
-LOBE_FN lobe_real lobe_expm1_over(lobe_real x)
-{
-	return x == LOBE_R(0.0) ? LOBE_R(1.0) : lobe_expm1(x) / x;
-}
+LOBE_FN lobe_real lobe_expm1_over(lobe_real x) { return x == LOBE_R(0.0) ? LOBE_R(1.0) : lobe_expm1(x) / x; }
 
 /* (1 + x)^-e for x >= 0 and any e, with the relative accuracy of the exponent e log(1 + x) whatever the size of e. */
 LOBE_FN lobe_real lobe_decay(lobe_real x, lobe_real e)

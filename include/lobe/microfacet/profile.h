@@ -6,13 +6,13 @@
  * so that hidden(v) = s h(|v.z|/s) with h(z) = int_z^inf r k(z/r) dF(r), of one variable: all that the masking of any
  * distribution of slopes is.
  *
- * The table holds Q as a function of X = 1 + r^2/t0 and h as one of X = 1 + z/sqrt(t0), where t0 is the median of tan^2.
- * Both fall from their largest value, often over tens of decades: what is interpolated, by cubic polynomials with exact
- * slopes at 129 knots that the host places, is the logarithm of either in the logarithm of X. There powers and
+ * The table holds Q as a function of X = 1 + r^2/t0 and h as one of X = 1 + z/r0, where r0 is the median of r, and t0 is
+ * r^2 of tail 15/16, so that a narrow peak on a broad base is resolved. Both fall from their largest value, often over tens of decades: what is interpolated, by cubic polynomials with exact
+ * slopes at 257 knots that the host places, is the logarithm of either in the logarithm of X. There powers and
  * exponentials are (nearly) straight, and relative accuracy holds however small a value is. Beyond the last knot both go
  * on as powers.
  *
- * Measured by tests/test_distributions.c, largest error over Phong, GTR, Student-T and user-given densities: see there. */
+ * Errors: phong.h, gtr.h, student_t.h, tabulated.h; all measured by tests/test_distributions.c. */
 #ifndef LOBE_MICROFACET_PROFILE_H
 #define LOBE_MICROFACET_PROFILE_H
 
@@ -23,13 +23,13 @@
 
 /* Layout, in words. A curve is LOBE_PROFILE_LEAVES + 1 knots; rules: profile_visible.h. */
 enum {
-	LOBE_PROFILE_LEVELS = 7,
+	LOBE_PROFILE_LEVELS = 8,
 	LOBE_PROFILE_LEAVES = 1 << LOBE_PROFILE_LEVELS,
 	LOBE_PROFILE_GAUSS = 8,
 
-	LOBE_PROFILE_T0 = 1,     /* median of tan^2 */
+	LOBE_PROFILE_T0 = 1,
 	LOBE_PROFILE_INV_T0 = 2, /* 1/t0 */
-	LOBE_PROFILE_INV_R0 = 3, /* 1/sqrt(t0) */
+	LOBE_PROFILE_INV_R0 = 3, /* 1/r0 */
 	LOBE_PROFILE_TAIL = 4,
 
 	/* One knot and the piece from it to the next: place X and value V there; the piece's rise of log X; the falls of
@@ -99,8 +99,7 @@ LOBE_FN lobe_real lobe_profile_fall_rate(lobe_profile_piece c, lobe_real p)
 	const lobe_real q = lobe_min(p, LOBE_R(1.0));
 	const lobe_real cubic = (c.slope0 + c.slope1) - (c.fall + c.fall);
 	const lobe_real square = (c.fall - c.slope0) - cubic;
-	const lobe_real rate =
-		lobe_fma(q, lobe_fma(q, LOBE_R(3.0) * cubic, square + square), c.slope0);
+	const lobe_real rate = lobe_fma(q, lobe_fma(q, LOBE_R(3.0) * cubic, square + square), c.slope0);
 	return lobe_max(rate, LOBE_R(0.0));
 }
 
@@ -154,7 +153,7 @@ LOBE_FN lobe_real lobe_profile_hidden(lobe_table t, lobe_vec3 v)
 {
 	const lobe_real s = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
 	const lobe_real z = lobe_abs(v.z) * lobe_table_fetch(t, LOBE_PROFILE_INV_R0) / s;
-	const lobe_real x = lobe_fma(LOBE_R(1.0), lobe_min(z, LOBE_R(1e+36)), LOBE_R(1.0));
+	const lobe_real x = LOBE_R(1.0) + lobe_min(z, LOBE_R(1e+36));
 	return s > LOBE_R(0.0) ? s * lobe_profile_curve(t, LOBE_PROFILE_HIDDEN, x) : LOBE_R(0.0);
 }
 
@@ -165,7 +164,8 @@ LOBE_FN lobe_facet_density lobe_profile_density(lobe_table t, lobe_vec3 h)
 	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y);
 	const lobe_real z2 = h.z * h.z;
 	const lobe_real x = lobe_profile_x(t, r2 / z2);
-	const lobe_profile_piece c = lobe_profile_piece_at(t, LOBE_PROFILE_TAIL, lobe_profile_find(t, LOBE_PROFILE_TAIL, x));
+	const lobe_profile_piece c =
+		lobe_profile_piece_at(t, LOBE_PROFILE_TAIL, lobe_profile_find(t, LOBE_PROFILE_TAIL, x));
 	const lobe_real p = lobe_profile_place(c, x);
 	const lobe_real rate = lobe_profile_fall_rate(c, p) / c.width;
 	const lobe_real inv_t0 = lobe_table_fetch(t, LOBE_PROFILE_INV_T0);

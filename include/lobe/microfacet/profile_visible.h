@@ -11,6 +11,9 @@
  * and inside it the area is a 4-point Gauss-Legendre sum, solved by Newton's method. Nothing cancels below the horizon,
  * where max(v.z, 0) is 0 and all terms are positive.
  *
+ * Largest distance of u.x from the true cumulative distribution of the ring 3e-6, of u.y from that of the azimuth 1e-6
+ * (tests/test_distributions_visible.c; a ring whose width is a hundredth of its steepness: 4e-5).
+ *
  * Azimuth. Density proportional to max(0, v.z + s r cos psi), psi from the azimuth of v: a Kepler equation. */
 #ifndef LOBE_MICROFACET_PROFILE_VISIBLE_H
 #define LOBE_MICROFACET_PROFILE_VISIBLE_H
@@ -184,15 +187,15 @@ LOBE_FN lobe_vec3 lobe_profile_visible(lobe_table t, lobe_vec3 v, lobe_vec2 u)
 	const lobe_real steep = hidden + above * lobe_profile_tail(t, z * z);
 	if (!(seen > zero))
 		return lobe_vec3_make(zero, zero, one);
-	const lobe_real r = (seen > steep) | !(s > zero)
-				    ? lobe_sqrt(lobe_profile_tail_inverse(t, lobe_min((seen - hidden) / above, one)))
-				    : lobe_profile_steep_ring(t, above / s, z, seen / s);
+	const int flat = (seen > steep) | !(s > zero);
+	const lobe_real r = flat ? lobe_sqrt(lobe_profile_tail_inverse(t, lobe_min((seen - hidden) / above, one)))
+				 : lobe_profile_steep_ring(t, above / s, z, seen / s);
 	const lobe_sincos a = lobe_visible_azimuth(v.z, s * r, u.y);
 	const lobe_real dx = s > zero ? v.x / s : one;
 	const lobe_real dy = s > zero ? v.y / s : zero;
-	const lobe_real flat = one / (one + r);
-	const lobe_real reach = r * flat;
-	return lobe_vec3_make(reach * lobe_fma(a.c, dx, -a.s * dy), reach * lobe_fma(a.c, dy, a.s * dx), flat);
+	const lobe_real height = one / (one + r);
+	const lobe_real reach = r * height;
+	return lobe_vec3_make(reach * lobe_fma(a.c, dx, -a.s * dy), reach * lobe_fma(a.c, dy, a.s * dx), height);
 }
 
 #endif
