@@ -98,13 +98,16 @@ $(B)/own_kernel: examples/own_kernel.c $(B)/liblobe.a
 	@echo "  link  $@"
 	$(Q)$(CC) $(EXAMPLE_CFLAGS) $< $(B)/liblobe.a -o $@ -lOpenCL $(LIBS)
 
-# The gallery traces rays on the host and runs where it is built: there lobe_fma can be one instruction. Same bits.
+# These trace rays on the host and run where they are built: there lobe_fma can be one instruction. Same bits.
 NATIVE := $(shell $(CC) -march=native -E -x c /dev/null >/dev/null 2>&1 && echo -march=native)
-GALLERY := $(wildcard examples/gallery/*.c)
-$(B)/gallery: $(GALLERY) $(wildcard examples/gallery/*.h) $(B)/liblobe.a
-	@echo "  link  $@"
-	$(Q)$(CC) $(EXAMPLE_CFLAGS) $(NATIVE) -Iexamples/gallery $(GALLERY) $(B)/liblobe.a -o $@ \
-		$$(pkg-config --cflags OpenEXR libpng) -lOpenEXRCore -lOpenEXR $$(pkg-config --libs libpng) $(LIBS)
+define PICTURES
+$(B)/$(1): $(wildcard examples/$(1)/*.[ch] examples/common/*.[ch]) $(B)/liblobe.a
+	@echo "  link  $$@"
+	$(Q)$(CC) $(EXAMPLE_CFLAGS) $(NATIVE) -Iexamples/common $(wildcard examples/$(1)/*.c examples/common/*.c) $(B)/liblobe.a \
+		-o $$@ $$$$(pkg-config --cflags OpenEXR libpng) -lOpenEXRCore -lOpenEXR $$$$(pkg-config --libs libpng) $(LIBS)
+endef
+$(eval $(call PICTURES,gallery))
+$(eval $(call PICTURES,heightfield))
 
 # --- demo, tests, benchmarks: each installs what it lacks, then builds on all processors --------------------------------
 
@@ -113,7 +116,7 @@ JOBS = $(if $(findstring -j,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 2
 
 run:
 	@./deps.sh run
-	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(B)/heightfield
 	@echo; echo "== one lobe, header only (build/minimal) =="
 	@$(B)/minimal
 	@echo; echo "== a batch on each device (build/batch) =="
@@ -122,6 +125,8 @@ run:
 	@$(B)/own_kernel
 	@echo; echo "== material gallery on each device (build/gallery) =="
 	@$(B)/gallery
+	@echo; echo "== from a height field to a lobe (build/heightfield) =="
+	@$(B)/heightfield
 
 TEST_CFLAGS := -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc -Itests -isystem tests/vendor/unity
 TEST_LIBS := -lgsl -lgslcblas -lmpfr -lgmp $(LIBS)
@@ -156,13 +161,13 @@ $(B)/tests/%: $(B)/tests/%.o $(B)/tests/libtest.a $(B)/liblobe.a
 
 test:
 	@./deps.sh test
-	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(B)/heightfield $(TEST_PROGRAMS)
 	@CC="$(CC)" tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c)) $(wildcard tests/test_*.sh)
 
 # The slow sweeps: every float through every elementary function, and the tests' larger settings.
 test-long:
 	@./deps.sh test
-	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(B)/heightfield $(TEST_PROGRAMS)
 	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/long_*.c)) \
 		$(wildcard tests/test_*.sh)
 

@@ -76,14 +76,16 @@ static const field fields_iridescent_dielectric[] = {
 	FILM(iridescent_dielectric, 1.0001e6)};
 
 /* A table's handle has no domain here: lobe_check_table sees to it. */
+/* microfacet/linear.h */
+#define SLOPES 100.01
+#define INVERSE 1e6
 #define LINEAR(lobe, map)                                                                                              \
-	REAL(lobe, map.xx, -1.0001, 1.0001), REAL(lobe, map.xy, -1.0001, 1.0001), REAL(lobe, map.yx, -1.0001, 1.0001), \
-		REAL(lobe, map.yy, -1.0001, 1.0001), REAL(lobe, map.mean_x, -100, 100),                                \
-		REAL(lobe, map.mean_y, -100, 100), REAL(lobe, map.ixx, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                 \
-		REAL(lobe, map.ixy, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                                                    \
-		REAL(lobe, map.iyx, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                                                    \
-		REAL(lobe, map.iyy, -1 / ALPHA_MIN, 1 / ALPHA_MIN),                                                    \
-		REAL(lobe, map.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
+	REAL(lobe, map.xx, -SLOPES, SLOPES), REAL(lobe, map.xy, -SLOPES, SLOPES),                                      \
+		REAL(lobe, map.yx, -SLOPES, SLOPES), REAL(lobe, map.yy, -SLOPES, SLOPES),                              \
+		REAL(lobe, map.mean_x, -SLOPES, SLOPES), REAL(lobe, map.mean_y, -SLOPES, SLOPES),                      \
+		REAL(lobe, map.ixx, -INVERSE, INVERSE), REAL(lobe, map.ixy, -INVERSE, INVERSE),                        \
+		REAL(lobe, map.iyx, -INVERSE, INVERSE), REAL(lobe, map.iyy, -INVERSE, INVERSE),                        \
+		REAL(lobe, map.norm, 3e-5, 1e10)
 #define DISTRIBUTION(lobe, member)                                                                                     \
 	UINT(lobe, member.ndf, LOBE_NDF_TABULATED), REAL(lobe, member.exponent, -FLT_MAX, FLT_MAX),                    \
 		REAL(lobe, member.width, 0, 1000), REAL(lobe, member.norm, 0, FLT_MAX),                                \
@@ -91,8 +93,8 @@ static const field fields_iridescent_dielectric[] = {
 #define MICROSURFACE(lobe)                                                                                             \
 	DISTRIBUTION(lobe, surface.distribution), LINEAR(lobe, surface.map),                                           \
 		UINT(lobe, surface.masking, LOBE_MASKING_LAST), UINT(lobe, surface.joint, LOBE_JOINT_LAST),            \
-		UINT(lobe, surface.across, LOBE_ACROSS_BETA), REAL(lobe, surface.like, 0, 1000),                       \
-		REAL(lobe, surface.alpha, 0, 1000), REAL(lobe, surface.narrow, 0, 1000)
+		UINT(lobe, surface.across, LOBE_ACROSS_BETA), REAL(lobe, surface.like, 1e-5, 10),                       \
+		REAL(lobe, surface.alpha, 1e-10, 1000), REAL(lobe, surface.narrow, 1e-10, 1000)
 /* What they are is told by the model. Of a and b the widest is the index of a conductor, and a dip's depth may be
  * negative; of c and d a film's thickness and index. */
 #define FRESNEL(lobe)                                                                                                  \

@@ -1,16 +1,14 @@
 /* gallery.c - renders a gallery of materials on every device and compares: speed, pictures, error against run time.
  *
  * An example of lobe's batches inside a path tracer. trace.c is the part to read: the algorithm and its batches.
- * scene.c holds what is looked at, light.c what lights it, random.c the random numbers, image.c the files, options.c
- * the arguments; here are devices, pictures and tables. */
+ * scene.c holds what is looked at, light.c what lights it, options.c the arguments, ../common/ random numbers and
+ * files; here are devices, pictures and tables. */
 #define _POSIX_C_SOURCE 200809L
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "image.h"
 #include "light.h"
@@ -112,23 +110,6 @@ static int open_listed(struct entry *entries, size_t *opened, const char *list, 
 }
 
 /* --- pictures --------------------------------------------------------------------------------------------------- */
-
-static int make_directories(const char *path)
-{
-	char part[512];
-	const size_t n = strlen(path);
-	if (n >= sizeof part)
-		return complain(path, "too long");
-	for (size_t i = 1; i <= n; i++) {
-		if (path[i] != '/' && path[i] != '\0')
-			continue;
-		memcpy(part, path, i);
-		part[i] = '\0';
-		if (mkdir(part, 0777) != 0 && errno != EEXIST)
-			return complain(part, strerror(errno));
-	}
-	return 0;
-}
 
 /* gallery.png and .exr, or gallery-opencl-0.png for a device whose picture is another. */
 static int write_picture(const struct image *image, const struct options *o, const char *device)
@@ -362,6 +343,7 @@ int main(int argc, char **argv)
 	struct error errors[ERROR_STEPS];
 	size_t count = 0;
 	int result = EXIT_FAILURE;
+	char message[1024];
 
 	const int parsed = options_parse(&o, argc, argv);
 	if (parsed != 0) {
@@ -377,8 +359,12 @@ int main(int argc, char **argv)
 		complain("threads", "cannot be started");
 		goto done;
 	}
-	if (make_light(&light, &o) != 0 || make_directories(o.out) != 0)
+	if (make_light(&light, &o) != 0)
 		goto done;
+	if (make_directories(o.out, message, sizeof message) != 0) {
+		complain("folder", message);
+		goto done;
+	}
 	const int opened = strcmp(o.devices, "all") ? open_listed(entries, &count, o.devices, &scene)
 						    : open_all(entries, &count, &scene);
 	if (opened != 0) {

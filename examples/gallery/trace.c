@@ -14,12 +14,12 @@
  * sample and round, so that neither batches nor threads can show in the picture. */
 #define _POSIX_C_SOURCE 200809L
 #include "trace.h"
+#include "progress.h"
 #include "random.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { WAVE = 1 << 17, ROULETTE_AFTER = 3 };
 
@@ -55,13 +55,6 @@ struct wave {
 	struct batch_arrays sample, eval;
 	void *memory;
 };
-
-double seconds_now(void)
-{
-	struct timespec t;
-	clock_gettime(CLOCK_MONOTONIC, &t);
-	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* --- film ------------------------------------------------------------------------------------------------------- */
 

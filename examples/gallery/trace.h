@@ -40,6 +40,4 @@ void film_image(const struct film *film, struct image *image); /* image: of the 
 int trace(struct film *film, const struct trace_setup *setup, uint32_t until, struct trace_stats *stats, char *message,
 	  size_t size);
 
-double seconds_now(void);
-
 #endif

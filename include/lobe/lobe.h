@@ -1,4 +1,5 @@
-/* lobe.h - the whole C API: the shading functions of shading.h and the batches of batch.h.
+/* lobe.h - the whole C API: the shading functions of shading.h, the batches of batch.h, and what a host
+ * prepares for them: slopes.h.
  *
  * To use one lobe alone include its header, e.g. "lobe/lobes/ggx_conductor.h"; there is nothing to link. */
 #ifndef LOBE_H
@@ -8,5 +9,6 @@
 #include "batch.h"
 #include "profile_table.h"
 #include "optics_names.h"
+#include "slopes.h"
 
 #endif

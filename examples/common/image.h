@@ -1,6 +1,6 @@
 /* image.h - pictures in and out: OpenEXR through its C library, PNG through libpng. */
-#ifndef GALLERY_IMAGE_H
-#define GALLERY_IMAGE_H
+#ifndef COMMON_IMAGE_H
+#define COMMON_IMAGE_H
 
 #include <stddef.h>
 
@@ -24,6 +24,12 @@ int image_write_exr(const struct image *image, const char *path, char *message, 
 
 /* 8 bits a channel, sRGB, after the tone curve that image.c explains; exposure in stops. */
 int image_write_png(const struct image *image, const char *path, float exposure, char *message, size_t size);
+
+/* The same without tone curve and exposure: 0 to 1, for pictures of data. */
+int image_write_png_plain(const struct image *image, const char *path, char *message, size_t size);
+
+/* A folder and those above it, if they are not there. */
+int make_directories(const char *path, char *message, size_t size);
 
 void image_free(struct image *image);
 

@@ -1,7 +1,7 @@
 /* random.h - the numbers of a path: a function of pixel, sample, round and use, and of nothing else, so that it does
  * not matter where or in which order they are asked for. */
-#ifndef GALLERY_RANDOM_H
-#define GALLERY_RANDOM_H
+#ifndef COMMON_RANDOM_H
+#define COMMON_RANDOM_H
 
 #include <stdint.h>
 

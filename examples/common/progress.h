@@ -1,6 +1,7 @@
-/* progress.h - how far a picture is, on stderr: a line that changes on a terminal, one for every tenth elsewhere. */
-#ifndef GALLERY_PROGRESS_H
-#define GALLERY_PROGRESS_H
+/* progress.h - the time, and how far a picture is, on stderr: a line that changes on a terminal, one for every tenth
+ * elsewhere. */
+#ifndef COMMON_PROGRESS_H
+#define COMMON_PROGRESS_H
 
 #include <stdint.h>
 
@@ -10,6 +11,9 @@ struct progress {
 	double start;
 	int shown, terminal;
 };
+
+/* Since some moment in the past. */
+double seconds_now(void);
 
 void progress_start(struct progress *progress, const char *label, uint64_t total);
 

@@ -1,12 +1,15 @@
 /* image.c - see image.h. */
+#define _POSIX_C_SOURCE 200809L
 #include "image.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <png.h>
 
@@ -263,7 +266,7 @@ int image_write_exr(const struct image *image, const char *path, char *message, 
 	init.user_data = &report;
 	exr_result_t code = exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, &init);
 	if (code == EXR_ERR_SUCCESS)
-		code = exr_add_part(file, "gallery", EXR_STORAGE_SCANLINE, &part);
+		code = exr_add_part(file, "picture", EXR_STORAGE_SCANLINE, &part);
 	if (code == EXR_ERR_SUCCESS)
 		code = exr_initialize_required_attr_simple(file, part, image->width, image->height,
 							   EXR_COMPRESSION_ZIP);
@@ -309,10 +312,9 @@ static uint8_t srgb_byte(float x)
 	return (uint8_t)(fminf(fmaxf(y, 0.0f), 1.0f) * 255.0f + 0.5f);
 }
 
-int image_write_png(const struct image *image, const char *path, float exposure, char *message, size_t size)
+static int write_png(const struct image *image, const char *path, float scale, int toned, char *message, size_t size)
 {
 	const size_t n = (size_t)image->width * (size_t)image->height;
-	const float scale = exp2f(exposure);
 	uint8_t *bytes = malloc(n * 3);
 	if (!bytes)
 		return fail(message, size, "%s: out of memory", path);
@@ -320,7 +322,8 @@ int image_write_png(const struct image *image, const char *path, float exposure,
 		float c[3];
 		for (int k = 0; k < 3; k++)
 			c[k] = fmaxf(image->rgb[3 * i + (size_t)k] * scale, 0.0f);
-		tone(c);
+		if (toned)
+			tone(c);
 		for (int k = 0; k < 3; k++)
 			bytes[3 * i + (size_t)k] = srgb_byte(c[k]);
 	}
@@ -333,4 +336,33 @@ int image_write_png(const struct image *image, const char *path, float exposure,
 	const int ok = png_image_write_to_file(&png, path, 0, bytes, 0, NULL);
 	free(bytes);
 	return ok ? 0 : fail(message, size, "%s: %s", path, png.message);
+}
+
+int image_write_png(const struct image *image, const char *path, float exposure, char *message, size_t size)
+{
+	return write_png(image, path, exp2f(exposure), 1, message, size);
+}
+
+int image_write_png_plain(const struct image *image, const char *path, char *message, size_t size)
+{
+	return write_png(image, path, 1.0f, 0, message, size);
+}
+
+/* --- folders ---------------------------------------------------------------------------------------------------- */
+
+int make_directories(const char *path, char *message, size_t size)
+{
+	char part[512];
+	const size_t n = strlen(path);
+	if (n >= sizeof part)
+		return fail(message, size, "%s: too long", path);
+	for (size_t i = 1; i <= n; i++) {
+		if (path[i] != '/' && path[i] != '\0')
+			continue;
+		memcpy(part, path, i);
+		part[i] = '\0';
+		if (mkdir(part, 0777) != 0 && errno != EEXIST)
+			return fail(message, size, "%s: %s", part, strerror(errno));
+	}
+	return 0;
 }
