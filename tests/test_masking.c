@@ -106,7 +106,8 @@ static double weak_furnace(lobe_microsurface s, double mu, double phi, int wrong
 static void test_weak_furnace_is_1(void)
 {
 	static const double mus[] = {1.0, 0.6, 0.2, 0.03};
-	const lobe_linear maps[] = {stretch(0.5, 0.5), stretch(1, 0.1), lobe_linear_make(0.3f, 0.2f, -0.1f, 0.5f, 0.0f, 0.0f),
+	const lobe_linear maps[] = {stretch(0.5, 0.5), stretch(1, 0.1),
+				    lobe_linear_make(0.3f, 0.2f, -0.1f, 0.5f, 0.0f, 0.0f),
 				    lobe_linear_make(0.4f, 0.1f, 0.0f, 0.3f, 0.4f, -0.3f)};
 	double smith = 0.0, cavities = 0.0;
 	unsigned n = 0, backs = 0;
@@ -147,8 +148,8 @@ static void test_weak_furnace_of_what_is_no_surface(void)
 		     {"Schlick-Smith, (r + 1)^2/8", LOBE_MASKING_SCHLICK_GGX_LIGHTS, {0.710, 0.778, 0.918}}};
 	for (size_t k = 0; k < sizeof known / sizeof *known; k++)
 		for (int i = 0; i < 3; i++) {
-			const double got =
-				weak_furnace(lobe_microsurface_masking(ggx(0.5), known[k].masking), mus[i], 0.4, 0, 1e-6);
+			const double got = weak_furnace(lobe_microsurface_masking(ggx(0.5), known[k].masking), mus[i],
+							0.4, 0, 1e-6);
 			printf("  %-32s alpha .5 mu %.1f: %.4f, known %.3f\n", known[k].name, mus[i], got,
 			       known[k].value[i]);
 			TEST_ASSERT_DOUBLE_WITHIN(5.1e-4, known[k].value[i], got);
@@ -161,7 +162,8 @@ static void test_weak_furnace_of_what_is_no_surface(void)
 		static const lobe_uint maskings[3] = {LOBE_MASKING_NONE, LOBE_MASKING_IMPLICIT, LOBE_MASKING_DISNEY};
 		static const char *const names[3] = {"none", "implicit", "Disney"};
 		for (int k = 0; k < 3; k++) {
-			const double got = weak_furnace(lobe_microsurface_masking(ggx(0.5), maskings[k]), mu, 0.4, 0, 1e-6);
+			const double got =
+				weak_furnace(lobe_microsurface_masking(ggx(0.5), maskings[k]), mu, 0.4, 0, 1e-6);
 			printf("  %-32s alpha .5 mu %.1f: %.4f, closed form %.4f\n", names[k], mu, got, expected[k]);
 			TEST_ASSERT_DOUBLE_WITHIN(1e-4 * expected[k], expected[k], got);
 			TEST_ASSERT_TRUE(fabs(got - 1.0) > 0.02);
@@ -184,8 +186,9 @@ static double mirror_at(void *context, double x, double y)
 	const double area = map_direction(&a->map, x, y, w);
 	if (!(area > 0.0))
 		return 0.0;
-	return area * (double)lobe_microfacet_conductor_eval(
-			      a->p, a->wo, lobe_vec3_make((float)w[0], (float)w[1], (float)w[2])).g;
+	return area * (double)lobe_microfacet_conductor_eval(a->p, a->wo,
+							     lobe_vec3_make((float)w[0], (float)w[1], (float)w[2]))
+			      .g;
 }
 
 static double mirror_edge(void *context, double x, double y) { return map_edge(&((const mirror *)context)->map, x, y); }
@@ -314,7 +317,8 @@ static void test_joints_keep_their_bounds(void)
 		test_direction(900u, j, a);
 		test_direction(901u, j, b);
 		test_u3(902u, j, u);
-		const lobe_vec3 o = lobe_vec3_make(a[0], a[1], fabsf(a[2])), i = lobe_vec3_make(b[0], b[1], fabsf(b[2]));
+		const lobe_vec3 o = lobe_vec3_make(a[0], a[1], fabsf(a[2])),
+				i = lobe_vec3_make(b[0], b[1], fabsf(b[2]));
 		lobe_microsurface s = lobe_microsurface_make(
 			shape_make(&shapes[j % SHAPES]),
 			lobe_linear_make(0.01f + 0.9f * u[0], 0.0f, 0.3f * u[2], 0.01f + 0.9f * u[1], 0.0f, 0.0f));
@@ -341,8 +345,7 @@ static void test_joints_keep_their_bounds(void)
 		s.across = LOBE_ACROSS_BETA;
 		const lobe_vec3 below = lobe_vec3_make(i.x, i.y, -i.z);
 		const lobe_seen so = lobe_see(s, o, 1.0f), si = lobe_see(s, below, -1.0f);
-		const double beta =
-			(double)so.z * (double)lobe_masking_g2_over_cos(s, so, si, seen_facet(o, i, h), 1);
+		const double beta = (double)so.z * (double)lobe_masking_g2_over_cos(s, so, si, seen_facet(o, i, h), 1);
 		across_above = larger(across_above, beta / least - 1.0);
 	}
 	measured("G2 above min(G1), relative", above, 1e-6);
@@ -371,7 +374,8 @@ static void test_van_ginneken(void)
 	s.joint = LOBE_JOINT_HEIGHT_DIRECTION;
 	TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0 / (1.0 + fmax(lo, li) + at_pi * fmin(lo, li)), g2(s, o, i));
 	s.joint = LOBE_JOINT_DIRECTION;
-	TEST_ASSERT_DOUBLE_WITHIN(1e-6, at_pi * g1(s, o) * g1(s, i) + (1.0 - at_pi) * fmin(g1(s, o), g1(s, i)), g2(s, o, i));
+	TEST_ASSERT_DOUBLE_WITHIN(1e-6, at_pi * g1(s, o) * g1(s, i) + (1.0 - at_pi) * fmin(g1(s, o), g1(s, i)),
+				  g2(s, o, i));
 	s.joint = LOBE_JOINT_HEIGHT;
 	TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0 / (1.0 + lo + li), g2(s, o, i));
 }

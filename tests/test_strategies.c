@@ -14,8 +14,8 @@
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-static const char *const names[] = {"visible", "uniform", "cosine", "ndf", "slopes", "ellipsoid",
-				    "cap",     "bounded", "v-cavity", "hemisphere"};
+static const char *const names[] = {"visible",   "uniform", "cosine",  "ndf",      "slopes",
+				    "ellipsoid", "cap",     "bounded", "v-cavity", "hemisphere"};
 enum { STRATEGIES = LOBE_STRATEGY_LAST + 1 };
 
 static lobe_linear stretch(double ax, double ay)
@@ -53,7 +53,8 @@ static double pdf_at(void *context, double x, double y)
 	double m[3];
 	const double area = surface_facet(&v->p.surface, x, y, m);
 	const double c = textbook_dot(v->o, m);
-	return c > 0.0 ? 4.0 * c * area * (double)lobe_microfacet_conductor_pdf(v->compared, v->wo, reflected(v, m)) : 0.0;
+	return c > 0.0 ? 4.0 * c * area * (double)lobe_microfacet_conductor_pdf(v->compared, v->wo, reflected(v, m))
+		       : 0.0;
 }
 
 static double pdf_edge(void *context, double x, double y)
@@ -99,8 +100,7 @@ static fit test_fit_to(const view *v, uint32_t stream, uint32_t samples, int dep
 	for (uint32_t i = 0; i < samples; i++) {
 		float u[3];
 		test_u3(stream, i, u);
-		const lobe_sample s =
-			lobe_microfacet_conductor_sample(v->p, v->wo, lobe_vec3_make(u[0], u[1], u[2]));
+		const lobe_sample s = lobe_microfacet_conductor_sample(v->p, v->wo, lobe_vec3_make(u[0], u[1], u[2]));
 		observed[s.event ? bin_of(v, s.wi) : REJECTED]++;
 	}
 	double chi2 = 0.0, pool_e = 0.0, pool_o = 0.0;
@@ -144,7 +144,8 @@ static view make_view(lobe_microsurface s, lobe_uint strategy, double z, double 
 
 static lobe_microsurface surface(int k)
 {
-	static const shape_case beside_ggx[] = {{"Beckmann", LOBE_NDF_BECKMANN, 0, 1}, {"GTR 1.5 .3", LOBE_NDF_GTR, 1.5, 0.3}};
+	static const shape_case beside_ggx[] = {{"Beckmann", LOBE_NDF_BECKMANN, 0, 1},
+						{"GTR 1.5 .3", LOBE_NDF_GTR, 1.5, 0.3}};
 	const lobe_linear maps[] = {
 		stretch(0.05, 0.05),
 		stretch(0.5, 0.5),
@@ -155,8 +156,7 @@ static lobe_microsurface surface(int k)
 		stretch(0.4, 0.3),
 		lobe_linear_make(0.8f, 0.3f, 0.1f, 0.7f, 0.1f, 0.2f),
 	};
-	const lobe_distribution d =
-		k < 6 ? lobe_distribution_make(LOBE_NDF_GGX) : shape_make(&beside_ggx[k - 6]);
+	const lobe_distribution d = k < 6 ? lobe_distribution_make(LOBE_NDF_GGX) : shape_make(&beside_ggx[k - 6]);
 	return lobe_microsurface_make(d, maps[k]);
 }
 enum { SURFACES = 8 };
@@ -180,13 +180,15 @@ static void test_samples_follow_the_density(void)
 					continue;
 				const fit f = test_fit(&v, 100u + tests, samples);
 				const double sigma = sqrt(f.rejected * (1.0 - f.rejected) / samples);
-				const double off = (fabs(f.integral + f.rejected - 1.0) - f.error) / (sigma + 2.0 / samples);
+				const double off =
+					(fabs(f.integral + f.rejected - 1.0) - f.error) / (sigma + 2.0 / samples);
 				tests++;
 				least = fmin(least, f.p);
 				worst = larger(worst, off);
 				if (f.p < level || off > 5.0) {
 					bad++;
-					printf("  surface %d, %s, cos %.2f: p %.1e, integral %.5f, rejected %.5f, quadrature "
+					printf("  surface %d, %s, cos %.2f: p %.1e, integral %.5f, rejected %.5f, "
+					       "quadrature "
 					       "%.0e\n",
 					       k, names[strategy], views[w][0], f.p, f.integral, f.rejected, f.error);
 				}
@@ -214,11 +216,13 @@ static void test_planted_errors_are_caught(void)
 	 * bound is told of the surface. */
 	const lobe_vec3 o = lobe_linear_direction(v.p.surface.map, v.wo);
 	const double t = sqrt((double)(o.x * o.x + o.y * o.y + o.z * o.z));
-	const lobe_vec3 stretched = lobe_vec3_make((float)((double)o.x / t), (float)((double)o.y / t), (float)((double)o.z / t));
+	const lobe_vec3 stretched =
+		lobe_vec3_make((float)((double)o.x / t), (float)((double)o.y / t), (float)((double)o.z / t));
 	const double k_right = (double)lobe_ggx_bounded_k(v.p.surface.narrow, v.wo);
 	const double k_wrong = (double)lobe_ggx_bounded_k(v.p.surface.narrow, stretched);
 	const double two_sigma = k_right * (double)v.wo.z + t, two_sigma_wrong = k_wrong * (double)v.wo.z + t;
-	printf("  bounded cap: integral %.5f + rejected %.5f; with k %.5f of the stretched direction for %.5f the integral is "
+	printf("  bounded cap: integral %.5f + rejected %.5f; with k %.5f of the stretched direction for %.5f the "
+	       "integral is "
 	       "%.5f\n",
 	       right.integral, right.rejected, k_wrong, k_right, right.integral * two_sigma / two_sigma_wrong);
 	TEST_ASSERT_TRUE(right.p > 1e-4);
@@ -300,8 +304,8 @@ static void test_every_strategy_has_the_same_mean(void)
 			const double exact = albedo(&v, &error);
 			for (lobe_uint strategy = 0; strategy < STRATEGIES; strategy++) {
 				/* Hardly a uniform direction hits a narrow lobe; of V-cavities nothing is seen from behind. */
-				const int blind = strategy == LOBE_STRATEGY_VCAVITY &&
-						  !(lobe_see(s, v.wo, 1.0f).z > 0.0f);
+				const int blind =
+					strategy == LOBE_STRATEGY_VCAVITY && !(lobe_see(s, v.wo, 1.0f).z > 0.0f);
 				if (blind || (k == 0 && lobe_strategy_of_directions(strategy)))
 					continue;
 				const weights r = sample_weights(mirror(s, strategy), v.wo, 500u + n, samples);
@@ -310,9 +314,11 @@ static void test_every_strategy_has_the_same_mean(void)
 				n++;
 				worst = larger(worst, off);
 				if (off > 5.0 && bad++ < 10)
-					printf("  surface %d, masking %u, %s, cos %.1f: %.5f +- %.5f, quadrature %.5f +- "
+					printf("  surface %d, masking %u, %s, cos %.1f: %.5f +- %.5f, quadrature %.5f "
+					       "+- "
 					       "%.0e\n",
-					       k, s.masking, names[strategy], views[w][0], r.mean, r.error, exact, error);
+					       k, s.masking, names[strategy], views[w][0], r.mean, r.error, exact,
+					       error);
 			}
 		}
 	printf("  %u estimates of %u samples\n", n, samples);
@@ -350,14 +356,22 @@ static void test_known_variances(void)
 		lobe_uint strategy;
 		double alpha, mu, rejected, variance;
 	} known[] = {
-		{LOBE_STRATEGY_VISIBLE_CAP, 0.25, 0.5, 0.070, 0.0737}, {LOBE_STRATEGY_BOUNDED_CAP, 0.25, 0.5, 0.039, 0.0478},
-		{LOBE_STRATEGY_VISIBLE_CAP, 0.5, 0.5, 0.161, 0.131},   {LOBE_STRATEGY_BOUNDED_CAP, 0.5, 0.5, 0.053, 0.0612},
-		{LOBE_STRATEGY_VISIBLE_CAP, 0.5, 1.0, 0.198, 0.151},   {LOBE_STRATEGY_BOUNDED_CAP, 0.5, 1.0, 0.0, 0.0259},
-		{LOBE_STRATEGY_VISIBLE_SLOPES, 1.0, 0.1, 0.090, 0.0945}, {LOBE_STRATEGY_BOUNDED_CAP, 1.0, 0.1, 0.0, 0.0334},
-		{LOBE_STRATEGY_VISIBLE_ELLIPSOID, 1.0, 1.0, 0.5, 0.133}, {LOBE_STRATEGY_BOUNDED_CAP, 1.0, 1.0, 0.0, 0.0195},
-		{LOBE_STRATEGY_NDF, 0.25, 0.1, -1, 2.572},	       {LOBE_STRATEGY_VISIBLE, 0.25, 0.1, -1, 0.045},
-		{LOBE_STRATEGY_NDF, 0.1, 0.1, -1, 1.595},	       {LOBE_STRATEGY_VISIBLE, 0.1, 0.1, -1, 0.049},
-		{LOBE_STRATEGY_NDF, 0.5, 0.5, -1, 0.4814},	       {LOBE_STRATEGY_HEMISPHERE, 1.0, 0.9, -1, 0.156},
+		{LOBE_STRATEGY_VISIBLE_CAP, 0.25, 0.5, 0.070, 0.0737},
+		{LOBE_STRATEGY_BOUNDED_CAP, 0.25, 0.5, 0.039, 0.0478},
+		{LOBE_STRATEGY_VISIBLE_CAP, 0.5, 0.5, 0.161, 0.131},
+		{LOBE_STRATEGY_BOUNDED_CAP, 0.5, 0.5, 0.053, 0.0612},
+		{LOBE_STRATEGY_VISIBLE_CAP, 0.5, 1.0, 0.198, 0.151},
+		{LOBE_STRATEGY_BOUNDED_CAP, 0.5, 1.0, 0.0, 0.0259},
+		{LOBE_STRATEGY_VISIBLE_SLOPES, 1.0, 0.1, 0.090, 0.0945},
+		{LOBE_STRATEGY_BOUNDED_CAP, 1.0, 0.1, 0.0, 0.0334},
+		{LOBE_STRATEGY_VISIBLE_ELLIPSOID, 1.0, 1.0, 0.5, 0.133},
+		{LOBE_STRATEGY_BOUNDED_CAP, 1.0, 1.0, 0.0, 0.0195},
+		{LOBE_STRATEGY_NDF, 0.25, 0.1, -1, 2.572},
+		{LOBE_STRATEGY_VISIBLE, 0.25, 0.1, -1, 0.045},
+		{LOBE_STRATEGY_NDF, 0.1, 0.1, -1, 1.595},
+		{LOBE_STRATEGY_VISIBLE, 0.1, 0.1, -1, 0.049},
+		{LOBE_STRATEGY_NDF, 0.5, 0.5, -1, 0.4814},
+		{LOBE_STRATEGY_HEMISPHERE, 1.0, 0.9, -1, 0.156},
 	};
 	double worst = 0.0, worst_rejected = 0.0;
 	for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
@@ -388,7 +402,8 @@ static void test_dielectric_means_agree(void)
 	double worst = 0.0;
 	for (int k = 1; k < SURFACES; k += 2)
 		for (int w = 0; w < 2; w++) {
-			const lobe_microsurface s = lobe_microsurface_joint(surface(k), LOBE_JOINT_HEIGHT, LOBE_ACROSS_BETA);
+			const lobe_microsurface s =
+				lobe_microsurface_joint(surface(k), LOBE_JOINT_HEIGHT, LOBE_ACROSS_BETA);
 			double mean[STRATEGIES], error[STRATEGIES];
 			for (lobe_uint strategy = 0; strategy < STRATEGIES; strategy++) {
 				const lobe_microfacet_dielectric p = lobe_microfacet_dielectric_make(
@@ -410,8 +425,8 @@ static void test_dielectric_means_agree(void)
 				const double off = fabs(mean[strategy] - mean[0]) / both;
 				worst = larger(worst, off);
 				if (off > 5.0)
-					printf("  surface %d, %s, cos %.1f: %.5f +- %.5f, visible %.5f\n", k, names[strategy],
-					       views[w][0], mean[strategy], error[strategy], mean[0]);
+					printf("  surface %d, %s, cos %.1f: %.5f +- %.5f, visible %.5f\n", k,
+					       names[strategy], views[w][0], mean[strategy], error[strategy], mean[0]);
 			}
 		}
 	measured("glass: means of ten strategies, standard deviations apart", worst, 5.0);
@@ -422,8 +437,8 @@ static void test_delta_refraction(void)
 {
 	double worst = 0.0;
 	for (lobe_uint strategy = 0; strategy < STRATEGIES; strategy++) {
-		const lobe_microfacet_dielectric p = lobe_microfacet_dielectric_make(
-			surface(4), lobe_fresnel_model_dielectric(), 1.0f, strategy);
+		const lobe_microfacet_dielectric p =
+			lobe_microfacet_dielectric_make(surface(4), lobe_fresnel_model_dielectric(), 1.0f, strategy);
 		double sum = 0.0, sum2 = 0.0;
 		const uint32_t n = 50000u;
 		for (uint32_t i = 0; i < n; i++) {

@@ -14,7 +14,8 @@ enum {
 	LOBE_FRESNEL_CONSTANT = 2, /* a: reflectance */
 	LOBE_FRESNEL_POWER = 3,    /* Schlick's curve with exponent c */
 	LOBE_FRESNEL_F82 = 4,      /* a: reflectance at normal incidence, b: depth of the dip (fresnel_schlick.h) */
-	LOBE_FRESNEL_FILM = 5,     /* a film of thickness c [nm] and index d; under it a conductor as above or a dielectric */
+	LOBE_FRESNEL_FILM =
+		5, /* a film of thickness c [nm] and index d; under it a conductor as above or a dielectric */
 	LOBE_FRESNEL_LAST = LOBE_FRESNEL_FILM
 };
 
@@ -131,9 +132,9 @@ LOBE_FN lobe_rgb lobe_fresnel_model_rest(lobe_fresnel_model f, lobe_real c, lobe
 	const lobe_real one = LOBE_R(1.0);
 	const lobe_real m = one - c;
 	const lobe_real rise = c * lobe_fma(m, lobe_fma(m, lobe_fma(m, one + m, one), one), one);
-	const lobe_rgb schlick = lobe_rgb_make(lobe_fma(f.b.r - f.a.r, rise, one - f.b.r),
-					       lobe_fma(f.b.g - f.a.g, rise, one - f.b.g),
-					       lobe_fma(f.b.b - f.a.b, rise, one - f.b.b));
+	const lobe_rgb schlick =
+		lobe_rgb_make(lobe_fma(f.b.r - f.a.r, rise, one - f.b.r), lobe_fma(f.b.g - f.a.g, rise, one - f.b.g),
+			      lobe_fma(f.b.b - f.a.b, rise, one - f.b.b));
 	const lobe_rgb other = lobe_rgb_make(one - reflectance.r, one - reflectance.g, one - reflectance.b);
 	return f.model == LOBE_FRESNEL_SCHLICK ? schlick : other;
 }

@@ -29,8 +29,9 @@ typedef struct {
 } lobe_microfacet_dielectric;
 
 /* Carries radiance; see lobe_microfacet_dielectric_transport. */
-LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_make(lobe_microsurface surface, lobe_fresnel_model fresnel,
-								   lobe_real eta, lobe_uint strategy)
+LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_make(lobe_microsurface surface,
+								   lobe_fresnel_model fresnel, lobe_real eta,
+								   lobe_uint strategy)
 {
 	lobe_microfacet_dielectric p;
 	p.surface = surface;
@@ -44,7 +45,8 @@ LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_make(lobe_microsur
 }
 
 /* The same surface for LOBE_TRANSPORT_RADIANCE or LOBE_TRANSPORT_IMPORTANCE (core/event.h). */
-LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_transport(lobe_microfacet_dielectric p, lobe_uint transport)
+LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_transport(lobe_microfacet_dielectric p,
+									lobe_uint transport)
 {
 	p.transport = transport;
 	return p;
@@ -75,30 +77,37 @@ typedef struct {
 } lobe_microfacet_dielectric_result;
 
 LOBE_FN_APART lobe_microfacet_dielectric_result lobe_microfacet_dielectric_at(lobe_microfacet_dielectric p,
-									      lobe_microfacet_dielectric_view v, lobe_vec3 i)
+									      lobe_microfacet_dielectric_view v,
+									      lobe_vec3 i)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const lobe_real params = lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
+	const lobe_real params =
+		lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
 	const lobe_scatter r = lobe_scatter_at(p.surface, p.strategy, v.o, i, v.e, 1);
 	const lobe_fresnel_split split = lobe_fresnel_model_interface(p.fresnel, r.cosine, v.e);
 	const int reflects = i.z > zero;
 	const int there = (params - params == zero) & (r.facing > zero) & (reflects | (p.delta == 0u));
 	const lobe_rgb share = reflects ? split.reflectance : split.transmittance;
 	const lobe_real scale = reflects ? one : v.scale;
-	const lobe_real chosen = lobe_strategy_of_directions(p.strategy) ? one : reflects ? split.reflect : split.transmit;
+	const lobe_real chosen = lobe_strategy_of_directions(p.strategy) ? one
+				 : reflects                              ? split.reflect
+									 : split.transmit;
 	const lobe_real inv_chosen = chosen > zero ? one / chosen : zero;
 	const lobe_real pdf = lobe_finite_or_zero(chosen * r.sampled);
 	lobe_microfacet_dielectric_result result;
-	result.f = lobe_rgb_select(
-		there, lobe_rgb_finite_or_zero(lobe_rgb_scale(share, scale * (r.density * r.g2_over_cos))));
-	result.weight = lobe_rgb_select(
-		there, lobe_rgb_finite_or_zero(lobe_rgb_scale(share, inv_chosen * (scale * r.gain))));
+	result.f = lobe_rgb_select(there,
+				   lobe_rgb_finite_or_zero(lobe_rgb_scale(share, scale * (r.density * r.g2_over_cos))));
+	result.weight =
+		lobe_rgb_select(there, lobe_rgb_finite_or_zero(lobe_rgb_scale(share, inv_chosen * (scale * r.gain))));
 	result.pdf = there ? pdf : zero;
 	return result;
 }
 
 /* The table of its distribution, for the scene that keeps it (core/table.h). */
-LOBE_FN lobe_table lobe_microfacet_dielectric_table(lobe_microfacet_dielectric p) { return p.surface.distribution.table; }
+LOBE_FN lobe_table lobe_microfacet_dielectric_table(lobe_microfacet_dielectric p)
+{
+	return p.surface.distribution.table;
+}
 
 LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_with_table(lobe_microfacet_dielectric p, lobe_table table)
 {
@@ -129,7 +138,8 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 							      lobe_fresnel_split split)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const lobe_real params = lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
+	const lobe_real params =
+		lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
 	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, split.exact);
 	const lobe_vec3 i = v.e < one ? lobe_normalize(bent) : bent;
 	lobe_seen_facet seen;
@@ -140,10 +150,12 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 	const lobe_real rate = lobe_strategy_rate(p.strategy, p.surface, o, v.o, 1, seen);
 	const lobe_facet_density d = lobe_distribution_density(p.surface.distribution, facet);
 	const lobe_real ratio = lobe_strategy_ratio(d, lobe_strategy_density(p.strategy, p.surface, facet, d));
-	const lobe_rgb weight = lobe_rgb_scale(split.transmittance, v.scale * ratio / (rate * o.sigma * split.transmit));
+	const lobe_rgb weight =
+		lobe_rgb_scale(split.transmittance, v.scale * ratio / (rate * o.sigma * split.transmit));
 	const int ok = (params - params == zero) & (lobe_min(lobe_min(v.o.z, c), lobe_min(-i.z, rate)) > zero);
-	return lobe_sample_select(ok & (split.transmit > zero), lobe_vec3_scale(i, v.side), lobe_rgb_finite_or_zero(weight),
-				  split.transmit, LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA);
+	return lobe_sample_select(ok & (split.transmit > zero), lobe_vec3_scale(i, v.side),
+				  lobe_rgb_finite_or_zero(weight), split.transmit,
+				  LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA);
 }
 
 /* Uses u.x and u.y for the facet, u.z to choose between reflection and refraction (with LOBE_STRATEGY_VCAVITY between the

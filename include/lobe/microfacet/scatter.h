@@ -21,8 +21,8 @@ typedef struct {
 
 /* o.z > 0. i is above for a reflection and below for a refraction; e: index of the far side over that of o's (any for a
  * reflection). transmits: the lobe does, and its strategy has to reach both sides. */
-LOBE_FN_APART lobe_scatter lobe_scatter_at(lobe_microsurface s, lobe_uint strategy, lobe_vec3 o, lobe_vec3 i, lobe_real e,
-					   int transmits)
+LOBE_FN_APART lobe_scatter lobe_scatter_at(lobe_microsurface s, lobe_uint strategy, lobe_vec3 o, lobe_vec3 i,
+					   lobe_real e, int transmits)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const int across = i.z < zero;
