@@ -226,10 +226,16 @@ $(B)/bench/throughput: $(THROUGHPUT) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/l
 	@echo "  link  $@"
 	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(THROUGHPUT) $(B)/liblobe.a -o $@ $(LIBS)
 
+$(B)/bench/strategies: bench/strategies.c bench/timing.c bench/timing.h $(B)/liblobe.a | $(B)/bench
+	@echo "  link  $@"
+	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) $(NATIVE) -Iinclude -Isrc bench/strategies.c bench/timing.c \
+		$(B)/liblobe.a -o $@ $(LIBS)
+
 bench:
 	@./deps.sh all
-	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/bench/throughput
+	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/bench/throughput $(B)/bench/strategies
 	@$(B)/bench/throughput
+	@$(B)/bench/strategies
 	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
 
 check:

@@ -8,6 +8,11 @@
  * tests/test_vectorised.sh reads the compilers' remarks for the lines ROW_... below. */
 #define LOBE_FN static inline __attribute__((always_inline))
 
+/* Functions that choose at run time stay calls; their lobes' loops do not vectorise. */
+#ifdef __GNUC__
+#define LOBE_FN_APART static __attribute__((noinline, unused))
+#endif
+
 #include "rows.h"
 
 #define PASTE_(a, b) a##b

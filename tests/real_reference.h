@@ -25,6 +25,8 @@
 	X(log, 0, 0.86, lobe_log(x))                                                                                   \
 	X(log2, 0, 1.60, lobe_log2(x))                                                                                 \
 	X(erf, -1, 1.28, lobe_erf(x))                                                                                  \
+	X(erfcx, 0, 6.06, lobe_erfcx(x))                                                                               \
+	X(ierfcx, 0, 6.72, lobe_ierfcx(x))                                                                             \
 	X(erfinv, -1, 2.40, lobe_erfinv(x))
 /* Sampled, not exhausted: a little above the measured maximum. */
 #define REAL_ATAN2_BOUND 1.75
@@ -55,6 +57,31 @@ static inline double reference_exp2(double x) { return exp2(x); }
 static inline double reference_log(double x) { return log(x); }
 static inline double reference_log2(double x) { return log2(x); }
 static inline double reference_erf(double x) { return erf(x); }
+
+/* From 2 on by the tail T of sqrt(pi) erfcx(x) = 1/(x + T), T = (1/2)/(x + 1/(x + (3/2)/(x + ... */
+static inline double reference_erfcx_tail(double x)
+{
+	double t = 0;
+	for (int k = x < 4 ? 200 : x < 100 ? 30 : 4; k > 0; k--)
+		t = 0.5 * k / (x + t);
+	return t;
+}
+
+static inline double reference_erfcx(double x)
+{
+	const double inv_sqrt_pi = 0.5641895835477562869;
+	if (!(x >= 0))
+		return (double)NAN;
+	return x < 2 ? exp(x * x) * erfc(x) : inv_sqrt_pi / (x + reference_erfcx_tail(x));
+}
+
+static inline double reference_ierfcx(double x)
+{
+	const double inv_sqrt_pi = 0.5641895835477562869, t = reference_erfcx_tail(x);
+	if (!(x >= 0))
+		return (double)NAN;
+	return x < 2 ? inv_sqrt_pi - x * reference_erfcx(x) : inv_sqrt_pi / (x + t) * t;
+}
 
 /* Halley's method on erf or erfc, from the closed formula of Winitzki; near 0 the first terms of the series. */
 static inline double reference_erfinv(double x)
@@ -127,6 +154,44 @@ EXACT_BY_MPFR(exp2)
 EXACT_BY_MPFR(log)
 EXACT_BY_MPFR(log2)
 EXACT_BY_MPFR(erf)
+
+/* From the definitions with as many more bits as they cancel, up to where the first omitted term of the asymptotic
+ * series 1 - 1/(2 x^2) + 3/(4 x^4) - ... is below 2^-80; ierfcx: 1/2 - 3/(4 x^2) + 15/(8 x^4) - ... */
+static inline void exact_erfcx_times(mpfr_t v, float x, int integral)
+{
+	mpfr_t a, b;
+	if (!(x >= 0)) {
+		mpfr_set_nan(v);
+		return;
+	}
+	mpfr_inits2(REFERENCE_BITS + 80, a, b, (mpfr_ptr)0);
+	if (x < 4096) {
+		mpfr_set_flt(a, x, MPFR_RNDN);
+		mpfr_erfc(b, a, MPFR_RNDN);
+		mpfr_sqr(a, a, MPFR_RNDN);
+		mpfr_exp(a, a, MPFR_RNDN);
+		mpfr_mul(b, b, a, MPFR_RNDN);
+		if (integral) {
+			mpfr_mul_d(b, b, -(double)x, MPFR_RNDN);
+			mpfr_const_pi(a, MPFR_RNDN);
+			mpfr_rec_sqrt(a, a, MPFR_RNDN);
+			mpfr_add(b, b, a, MPFR_RNDN);
+		}
+	} else {
+		const double s = 1 / ((double)x * (double)x);
+		mpfr_const_pi(b, MPFR_RNDN);
+		mpfr_rec_sqrt(b, b, MPFR_RNDN);
+		mpfr_div_d(b, b, (double)x, MPFR_RNDN);
+		if (integral)
+			mpfr_div_d(b, b, (double)x, MPFR_RNDN);
+		mpfr_mul_d(b, b, integral ? 0.5 - s * (0.75 - 1.875 * s) : 1 - s * (0.5 - 0.75 * s), MPFR_RNDN);
+	}
+	mpfr_set(v, b, MPFR_RNDN);
+	mpfr_clears(a, b, (mpfr_ptr)0);
+}
+
+static inline void exact_erfcx(mpfr_t v, float x) { exact_erfcx_times(v, x, 0); }
+static inline void exact_ierfcx(mpfr_t v, float x) { exact_erfcx_times(v, x, 1); }
 
 /* One step of Newton's method from the value in double, on erfc where 1 - |x| is exact. */
 static inline void exact_erfinv(mpfr_t v, float x)

@@ -28,6 +28,32 @@ double textbook_ggx_lambda(double ax, double ay, const double w[3])
 	return (sqrt(1.0 + a2_tan2) - 1.0) / 2.0;
 }
 
+static double beckmann_d(double ax, double ay, const double m[3])
+{
+	if (m[2] <= 0.0)
+		return 0.0;
+	const double cos2 = m[2] * m[2];
+	const double sum = m[0] * m[0] / (ax * ax) / cos2 + m[1] * m[1] / (ay * ay) / cos2;
+	return exp(-sum) / (PI * ax * ay * cos2 * cos2);
+}
+
+/* (erf(a) - 1)/2 as -erfc(a)/2, which alone keeps its digits for large a. */
+static double beckmann_lambda(double ax, double ay, const double w[3])
+{
+	const double a = fabs(w[2]) / sqrt(ax * ax * w[0] * w[0] + ay * ay * w[1] * w[1]);
+	return a < 26.0 ? exp(-a * a) / (2.0 * a * sqrt(PI)) - erfc(a) / 2.0 : 0.0;
+}
+
+double textbook_d(textbook_ndf ndf, double ax, double ay, const double m[3])
+{
+	return ndf == TEXTBOOK_BECKMANN ? beckmann_d(ax, ay, m) : textbook_ggx_d(ax, ay, m);
+}
+
+double textbook_lambda(textbook_ndf ndf, double ax, double ay, const double w[3])
+{
+	return ndf == TEXTBOOK_BECKMANN ? beckmann_lambda(ax, ay, w) : textbook_ggx_lambda(ax, ay, w);
+}
+
 double textbook_fresnel(double c, double eta)
 {
 	const double g2 = eta * eta - 1.0 + c * c;
@@ -58,7 +84,7 @@ double textbook_fresnel_conductor(double c, double n, double k)
 	return 0.5 * (s + p);
 }
 
-double textbook_rough_metal(double ax, double ay, double n, double k, const double wo[3], const double wi[3])
+double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3], const double wi[3])
 {
 	double h[3];
 	for (int i = 0; i < 3; i++)
@@ -66,12 +92,12 @@ double textbook_rough_metal(double ax, double ay, double n, double k, const doub
 	textbook_normalize(h);
 	if (wo[2] <= 0.0 || wi[2] <= 0.0)
 		return 0.0;
-	const double g = 1.0 / (1.0 + textbook_ggx_lambda(ax, ay, wo) + textbook_ggx_lambda(ax, ay, wi));
+	const double g = 1.0 / (1.0 + textbook_lambda(ndf, ax, ay, wo) + textbook_lambda(ndf, ax, ay, wi));
 	const double f = textbook_fresnel_conductor(textbook_dot(wo, h), n, k);
-	return f * textbook_ggx_d(ax, ay, h) * g / (4.0 * wo[2]);
+	return f * textbook_d(ndf, ax, ay, h) * g / (4.0 * wo[2]);
 }
 
-double textbook_rough_glass(double ax, double ay, double eta, const double wo[3], const double wi[3])
+double textbook_rough_glass(textbook_ndf ndf, double ax, double ay, double eta, const double wo[3], const double wi[3])
 {
 	const double eta_o = wo[2] > 0.0 ? 1.0 : eta;
 	const double eta_i = wi[2] > 0.0 ? 1.0 : eta;
@@ -88,9 +114,9 @@ double textbook_rough_glass(double ax, double ay, double eta, const double wo[3]
 	const double ih = textbook_dot(wi, h);
 	if (oh * wo[2] <= 0.0 || ih * wi[2] <= 0.0)
 		return 0.0;
-	const double d = textbook_ggx_d(ax, ay, h);
-	const double lo = textbook_ggx_lambda(ax, ay, wo);
-	const double li = textbook_ggx_lambda(ax, ay, wi);
+	const double d = textbook_d(ndf, ax, ay, h);
+	const double lo = textbook_lambda(ndf, ax, ay, wo);
+	const double li = textbook_lambda(ndf, ax, ay, wi);
 	if (reflects) {
 		const double f = textbook_fresnel(fabs(oh), wo[2] > 0.0 ? eta : 1.0 / eta);
 		return f * d / (1.0 + lo + li) / (4.0 * fabs(wo[2]));

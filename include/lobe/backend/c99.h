@@ -35,6 +35,12 @@ typedef int64_t lobe_int64;
 #define LOBE_FN static inline
 #endif
 
+/* LOBE_FN_APART: large functions that choose at run time. They stay calls in loops too, which then do not vectorise but
+ * compile in seconds. */
+#ifndef LOBE_FN_APART
+#define LOBE_FN_APART LOBE_FN
+#endif
+
 #if LOBE_DOUBLE
 
 typedef double lobe_real;

@@ -2,7 +2,7 @@
  *
  * lobe_sincos_2pi lobe_sin lobe_cos lobe_tan lobe_asin lobe_acos lobe_atan lobe_atan2   trig.h
  * lobe_exp lobe_exp2 lobe_log lobe_log2 lobe_pow                                        explog.h
- * lobe_erf lobe_erfinv                                                                  erf.h
+ * lobe_erf lobe_erfcx lobe_ierfcx lobe_erfinv                                           erf.h
  *
  * In single precision each is a few polynomials without a branch, a loop, a table or a call into libm, so that a row
  * loop over them vectorises. What could be ill defined is selected away before it happens: no float leaves the range of
@@ -25,6 +25,10 @@
 typedef struct {
 	lobe_real s, c;
 } lobe_sincos;
+
+typedef struct {
+	lobe_real num, den;
+} lobe_quotient;
 
 #if LOBE_DOUBLE
 
@@ -56,26 +60,67 @@ LOBE_FN lobe_sincos lobe_sincos_2pi(lobe_real u)
 	return r;
 }
 
-/* One step of Halley's method on erf(y) = a, or on erfc(y) = 1 - a, whose relative error stays small near a = 1. */
-LOBE_FN lobe_real lobe_erfinv_halley(lobe_real a, lobe_real y)
+/* From x = 3 on the tail T of the continued fraction sqrt(pi) erfcx(x) = 1/(x + T), T = (1/2)/(x + 1/(x + (3/2)/(x + ...,
+ * good to a rounding; below, the definitions. */
+LOBE_FN lobe_real lobe_erfcx_tail(lobe_real x)
 {
-	const lobe_real residual = a < 0.5 ? erf(y) - a : (1.0 - a) - erfc(y);
+	lobe_real t = 0.0;
+	for (int k = 60; k > 0; k--)
+		t = 0.5 * k / (x + t);
+	return t;
+}
+
+LOBE_FN lobe_real lobe_erfcx(lobe_real x)
+{
+	const lobe_real v = x < 3.0 ? exp(x * x) * erfc(x) : 0x1.20dd750429b6dp-1 / (x + lobe_erfcx_tail(x));
+	return x >= 0.0 ? v : (double)NAN;
+}
+
+LOBE_FN lobe_quotient lobe_erfcx_quotient(lobe_real x)
+{
+	lobe_quotient r;
+	r.num = lobe_erfcx(x);
+	r.den = 1.0;
+	return r;
+}
+
+LOBE_FN lobe_real lobe_ierfcx(lobe_real x)
+{
+	const lobe_real t = lobe_erfcx_tail(x);
+	const lobe_real near = 0x1.20dd750429b6dp-1 - x * (exp(x * x) * erfc(x));
+	const lobe_real far = 0x1.20dd750429b6dp-1 / (x + t) * t;
+	return x >= 0.0 ? (x < 3.0 ? near : far) : (double)NAN;
+}
+
+/* One step of Halley's method on erf(y) = a, or on erfc(y) = c, c = 1 - a, whose relative error stays small near a = 1. */
+LOBE_FN lobe_real lobe_erfinv_halley(lobe_real a, lobe_real c, lobe_real y)
+{
+	const lobe_real residual = a < 0.5 ? erf(y) - a : c - erfc(y);
 	const lobe_real step = residual * exp(y * y) * 0x1.c5bf891b4ef6bp-1;
 	return y - step / (1.0 + y * step);
 }
 
-/* From the start of Winitzki 2008, "A handy approximation for the error function and its inverse" (2e-3). */
+/* The y with erf(y) = x, |x| < 1, from d = 1 - x^2. Starts with Winitzki 2008, "A handy approximation for the error
+ * function and its inverse" (2e-3). */
+LOBE_FN lobe_real lobe_erfinv_from(lobe_real x, lobe_real d)
+{
+	const lobe_real a = fabs(x);
+	const lobe_real c = d / (1.0 + a);
+	const lobe_real l = (a < 0.5 ? log1p(-(a * a)) : log(d)) / 2.0;
+	const lobe_real b = 4.330746750799873 + l;
+	const lobe_real e = -2.0 * l / 0.147;
+	lobe_real y = sqrt(e / (sqrt(b * b + e) + b));
+	y = lobe_erfinv_halley(a, c, y);
+	y = lobe_erfinv_halley(a, c, y);
+	y = lobe_erfinv_halley(a, c, y);
+	return copysign(y, x);
+}
+
 LOBE_FN lobe_real lobe_erfinv(lobe_real x)
 {
 	const lobe_real a = fabs(x);
-	const lobe_real l = log1p(-(a * a)) / 2.0;
-	const lobe_real b = 4.330746750799873 + l;
-	const lobe_real d = -2.0 * l / 0.147;
-	lobe_real y = sqrt(d / (sqrt(b * b + d) + b));
-	y = lobe_erfinv_halley(a, y);
-	y = lobe_erfinv_halley(a, y);
-	y = lobe_erfinv_halley(a, y);
-	return a < 1.0 ? copysign(y, x) : a == 1.0 ? x * HUGE_VAL : (double)NAN;
+	const lobe_real y = lobe_erfinv_from(x, (1.0 - a) * (1.0 + a));
+	return a < 1.0 ? y : a == 1.0 ? x * HUGE_VAL : (double)NAN;
 }
 
 #else

@@ -11,6 +11,7 @@
 #include "../core/warp.h"
 #include "facet.h"
 #include "shape.h"
+#include "beckmann.h"
 #include "ggx.h"
 #include "gtr.h"
 #include "phong.h"
@@ -30,7 +31,7 @@ LOBE_FN lobe_distribution lobe_distribution_make(lobe_uint ndf)
 }
 
 /* pi |h|^-4 D(h/|h|), as inv^2 factor. */
-LOBE_FN lobe_facet_density lobe_distribution_density(lobe_distribution d, lobe_vec3 h)
+LOBE_FN_APART lobe_facet_density lobe_distribution_density(lobe_distribution d, lobe_vec3 h)
 {
 	switch (d.ndf) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
@@ -48,7 +49,7 @@ LOBE_FN lobe_facet_density lobe_distribution_density(lobe_distribution d, lobe_v
 }
 
 /* |v.z| Lambda(v) */
-LOBE_FN lobe_real lobe_distribution_hidden(lobe_distribution d, lobe_vec3 v)
+LOBE_FN_APART lobe_real lobe_distribution_hidden(lobe_distribution d, lobe_vec3 v)
 {
 	switch (d.ndf) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
@@ -66,7 +67,7 @@ LOBE_FN lobe_real lobe_distribution_hidden(lobe_distribution d, lobe_vec3 v)
 }
 
 /* The fraction of the mean plane under facets steeper than tan^2 = t2. */
-LOBE_FN lobe_real lobe_distribution_tail(lobe_distribution d, lobe_real t2)
+LOBE_FN_APART lobe_real lobe_distribution_tail(lobe_distribution d, lobe_real t2)
 {
 	switch (d.ndf) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
@@ -84,7 +85,7 @@ LOBE_FN lobe_real lobe_distribution_tail(lobe_distribution d, lobe_real t2)
 }
 
 /* The t2 of tail q, in (0, 1]. */
-LOBE_FN lobe_real lobe_distribution_tail_inverse(lobe_distribution d, lobe_real q)
+LOBE_FN_APART lobe_real lobe_distribution_tail_inverse(lobe_distribution d, lobe_real q)
 {
 	switch (d.ndf) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
@@ -102,7 +103,7 @@ LOBE_FN lobe_real lobe_distribution_tail_inverse(lobe_distribution d, lobe_real 
 }
 
 /* A normal visible from v, on either side of the horizon: density D(m) max(0, v.m)/sigma(v). Of any length. */
-LOBE_FN lobe_vec3 lobe_distribution_visible(lobe_distribution d, lobe_vec3 v, lobe_vec2 u)
+LOBE_FN_APART lobe_vec3 lobe_distribution_visible(lobe_distribution d, lobe_vec3 v, lobe_vec2 u)
 {
 	switch (d.ndf) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
