@@ -59,10 +59,10 @@ static lobe_iridescent_conductor make_iridescent_conductor(const double *p)
 /* alpha_x, alpha_y, thickness, film index, eta, transport */
 static lobe_iridescent_dielectric make_iridescent_dielectric(const double *p)
 {
-	return lobe_iridescent_dielectric_transport(
-		lobe_iridescent_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2], (lobe_real)p[3],
-						(lobe_real)p[4]),
-		(lobe_uint)p[5]);
+	return lobe_iridescent_dielectric_transport(lobe_iridescent_dielectric_make((lobe_real)p[0], (lobe_real)p[1],
+										    (lobe_real)p[2], (lobe_real)p[3],
+										    (lobe_real)p[4]),
+						    (lobe_uint)p[5]);
 }
 
 static lobe_bsdf make_bsdf(uint32_t kind, const double *p)

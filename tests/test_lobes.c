@@ -90,7 +90,8 @@ static void check_sample(const test_case *c, lobe_vec3 wo, lobe_vec3 u, tally *t
 	const int coloured = (c->flags & CASE_COLOURED) != 0u;
 	const double mean = (component(s.weight, 0) + component(s.weight, 1) + component(s.weight, 2)) / 3.0;
 	for (int k = 0; k < 3; k++)
-		t->too_bright += !(component(s.weight, k) >= 0.0 && component(s.weight, k) <= bound * (coloured ? 3.0 : 1.0));
+		t->too_bright +=
+			!(component(s.weight, k) >= 0.0 && component(s.weight, k) <= bound * (coloured ? 3.0 : 1.0));
 	t->too_bright += coloured && !(mean <= bound);
 }
 

@@ -76,8 +76,8 @@ static double iridescent_dielectric_condition(const test_case *c, double cosine,
 {
 	const lobe_iridescent_dielectric p = c->bsdf.as.iridescent_dielectric;
 	const double cos_t = sqrt(fmax(0.0, 1.0 - (1.0 - cosine * cosine) / (e * e)));
-	const lobe_film_fresnel f = lobe_thin_film_dielectric_rgb((float)(e < 1.0 ? cos_t : cosine), p.film,
-								  (float)fmax(e, 1.0 / e));
+	const lobe_film_fresnel f =
+		lobe_thin_film_dielectric_rgb((float)(e < 1.0 ? cos_t : cosine), p.film, (float)fmax(e, 1.0 / e));
 	const lobe_rgb share = transmits ? f.transmittance : f.reflectance;
 	return (8.0 + case_film_condition(c)) / fmax(fmin((double)share.r, (double)share.b), 1e-30);
 }
@@ -253,8 +253,15 @@ static void test_rough_glass_against_walter(void)
 		const lobe_real ax = 0.05f + 0.95f * u[0] * u[0], ay = 0.05f + 0.95f * u[1] * u[1];
 		const lobe_real up = 1.05f + 1.95f * u[2], eta = j & 1u ? up : 1.0f / up;
 		const lobe_vec3 wo = lobe_vec3_make(a[0], a[1], a[2]), wi = lobe_vec3_make(b[0], b[1], b[2]);
-		test_case c = {
-			"random glass", LOBE_KIND_GGX_DIELECTRIC, {0}, {0}, CASE_TWO_SIDED | CASE_TRANSMITS, 0, 0, 0, 0};
+		test_case c = {"random glass",
+			       LOBE_KIND_GGX_DIELECTRIC,
+			       {0},
+			       {0},
+			       CASE_TWO_SIDED | CASE_TRANSMITS,
+			       0,
+			       0,
+			       0,
+			       0};
 		c.alpha_x = c.parameter[0] = (double)ax;
 		c.alpha_y = c.parameter[1] = (double)ay;
 		c.eta = c.parameter[2] = (double)eta;

@@ -59,8 +59,8 @@
 
 /* The linked library has every lobe; its lobe_bsdf is a union over them all. */
 #define LOBE_HAS_ALL                                                                                                   \
-	(LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC && LOBE_HAS_GGX_SCHLICK &&               \
-	 LOBE_HAS_MIRROR && LOBE_HAS_SMOOTH_CONDUCTOR && LOBE_HAS_SMOOTH_DIELECTRIC && LOBE_HAS_THIN_DIELECTRIC &&      \
+	(LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC && LOBE_HAS_GGX_SCHLICK &&              \
+	 LOBE_HAS_MIRROR && LOBE_HAS_SMOOTH_CONDUCTOR && LOBE_HAS_SMOOTH_DIELECTRIC && LOBE_HAS_THIN_DIELECTRIC &&     \
 	 LOBE_HAS_IRIDESCENT_CONDUCTOR && LOBE_HAS_IRIDESCENT_DIELECTRIC)
 
 #endif
