@@ -67,10 +67,10 @@ LOBE_FN lobe_film_bottom lobe_film_bottom_from_ratio(lobe_complex u, lobe_comple
 {
 	const lobe_complex sum = lobe_complex_make(u.re + v.re, u.im + v.im);
 	const lobe_real inv = LOBE_R(1.0) / lobe_max(lobe_complex_norm(sum), LOBE_R(0x1p-80));
-	const lobe_real across = lobe_fma(u.re, v.im, -(u.im * v.re));
-	const lobe_real along = lobe_fma(u.re, v.re, u.im * v.im);
+	const lobe_real across = u.re * v.im - u.im * v.re;
+	const lobe_real along = u.re * v.re + u.im * v.im;
 	lobe_film_bottom b;
-	b.r.re = lobe_fma(v.re - u.re, sum.re, (v.im - u.im) * sum.im) * inv;
+	b.r.re = ((v.re - u.re) * sum.re + (v.im - u.im) * sum.im) * inv;
 	b.r.im = (across + across) * inv;
 	b.t = LOBE_R(4.0) * along * inv;
 	return b;
