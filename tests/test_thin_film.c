@@ -418,6 +418,28 @@ static void test_soap_film(void)
 		TEST_ASSERT_DOUBLE_WITHIN(0.02, channel(f.transmittance, k), weight[k]);
 }
 
+/* Beyond the critical angle all is reflected, white, whatever the film; before it the colours of both events complement
+ * each other. */
+static void test_from_within_glass(void)
+{
+	const lobe_iridescent_dielectric p = lobe_iridescent_dielectric_make(1e-3f, 1e-3f, 300.0f, 1.38f, 1.5f);
+	for (uint32_t i = 0; i < 2000u; i++) {
+		const float z = i & 1u ? 0.7f * test_uniform(41, i) + 0.02f : 0.8f + 0.2f * test_uniform(41, i);
+		const lobe_vec3 wo = lobe_vec3_make(0.0f, sqrtf(1.0f - z * z), -z);
+		const lobe_sample r = lobe_iridescent_dielectric_sample(p, wo, lobe_vec3_make(0.5f, 0.5f, 0.0f));
+		const lobe_sample t =
+			lobe_iridescent_dielectric_sample(p, wo, lobe_vec3_make(0.5f, 0.5f, 0x1.fffffep-1f));
+		TEST_ASSERT_TRUE((r.event & LOBE_EVENT_REFLECT) != 0u);
+		if (i & 1u) {
+			TEST_ASSERT_TRUE((t.event & LOBE_EVENT_REFLECT) != 0u);
+			TEST_ASSERT_TRUE(t.weight.r == t.weight.g && t.weight.g == t.weight.b && t.weight.r > 0.9f);
+		} else {
+			TEST_ASSERT_TRUE((t.event & LOBE_EVENT_TRANSMIT) != 0u);
+			TEST_ASSERT_TRUE((r.weight.r > r.weight.b) == (t.weight.r < t.weight.b));
+		}
+	}
+}
+
 int main(void)
 {
 	gsl_set_error_handler_off();
@@ -430,5 +452,6 @@ int main(void)
 	RUN_TEST(test_what_everybody_has_seen);
 	RUN_TEST(test_lobes_without_film);
 	RUN_TEST(test_soap_film);
+	RUN_TEST(test_from_within_glass);
 	return UNITY_END();
 }

@@ -11,7 +11,7 @@
  * there would be total reflection in the film; thin_film.h has the way out for a base that is rarer than the outside.
  *
  * No film is no film: with d = 0 the result is the base's own Fresnel reflectance to rounding, with film = 1 too, and so
- * it is where OPD is a whole number of wavelengths. Absolute error where OPD is below a wavelength 9.1e-7 over a
+ * it is where OPD is a whole number of wavelengths. Absolute error where OPD is below a wavelength 9.8e-7 over a
  * dielectric, 3.9e-6 over a metal, beyond by 2.6e-6 for each wavelength: a rounding of the phase
  * (tests/test_thin_film.c, against complex double). */
 #ifndef LOBE_CORE_AIRY_H
