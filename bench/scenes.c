@@ -52,8 +52,8 @@ static lobe_bsdf material_beckmann_dielectric(void)
 #if LOBE_HAS_GGX_SCHLICK
 static lobe_bsdf material_ggx_schlick(void)
 {
-	return lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(0.3f, 0.2f, lobe_rgb_make(0.9f, 0.6f, 0.3f),
-								 lobe_rgb_make(1.0f, 1.0f, 1.0f)));
+	return lobe_bsdf_from_ggx_schlick(
+		lobe_ggx_schlick_make(0.3f, 0.2f, lobe_rgb_make(0.9f, 0.6f, 0.3f), lobe_rgb_make(1.0f, 1.0f, 1.0f)));
 }
 #endif
 

@@ -63,17 +63,14 @@ static const field fields_smooth_dielectric[] = {INDEX(smooth_dielectric, eta), 
 
 static const field fields_thin_dielectric[] = {INDEX(thin_dielectric, eta)};
 
-static const field fields_iridescent_conductor[] = {STRETCH(iridescent_conductor, stretch),
-						    METAL(iridescent_conductor), FILM(iridescent_conductor, 1000)};
+static const field fields_iridescent_conductor[] = {STRETCH(iridescent_conductor, stretch), METAL(iridescent_conductor),
+						    FILM(iridescent_conductor, 1000)};
 
 /* Its film's index is over the thinner medium's. */
 static const field fields_iridescent_dielectric[] = {
-	STRETCH(iridescent_dielectric, glass.stretch),
-	INDEX(iridescent_dielectric, glass.eta),
-	INDEX(iridescent_dielectric, glass.inv_eta),
-	TRANSPORT(iridescent_dielectric, glass.transport),
-	UINT(iridescent_dielectric, glass.delta, 1),
-	FILM(iridescent_dielectric, 1.0001e6)};
+	STRETCH(iridescent_dielectric, glass.stretch), INDEX(iridescent_dielectric, glass.eta),
+	INDEX(iridescent_dielectric, glass.inv_eta),   TRANSPORT(iridescent_dielectric, glass.transport),
+	UINT(iridescent_dielectric, glass.delta, 1),   FILM(iridescent_dielectric, 1.0001e6)};
 
 /* A table's handle has no domain here: lobe_check_table sees to it. */
 /* microfacet/linear.h */

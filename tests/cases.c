@@ -147,11 +147,8 @@ static const recipe smooth_dielectric_recipes[] = {
 };
 
 static const recipe thin_dielectric_recipes[] = {
-	{"pane glass", {1.5}},
-	{"pane of air", {1 / 1.5}},
-	{"pane eta 1", {1}},
-	{"pane eta 1000", {1000}},
-	{"pane eta 1/1000", {1e-3}},
+	{"pane glass", {1.5}},     {"pane of air", {1 / 1.5}},  {"pane eta 1", {1}},
+	{"pane eta 1000", {1000}}, {"pane eta 1/1000", {1e-3}},
 };
 
 /* alpha_x, alpha_y, thickness, film index, n + ik */

@@ -17,8 +17,8 @@
 enum {
 	CASE_TWO_SIDED = 1, /* shades from below too */
 	CASE_TRANSMITS = 2,
-	CASE_RECIPROCAL = 4, /* f(wo,wi) = f(wi,wo), across the surface with the square of the index */
-	CASE_DELTA = 8,      /* some samples are LOBE_EVENT_DELTA */
+	CASE_RECIPROCAL = 4,  /* f(wo,wi) = f(wi,wo), across the surface with the square of the index */
+	CASE_DELTA = 8,       /* some samples are LOBE_EVENT_DELTA */
 	CASE_DELTA_ONLY = 16, /* all are: eval and pdf are 0 */
 	CASE_COLOURED = 32, /* reflects or refracts by the mean over the channels, which is what a weight's mean keeps to */
 	CASE_HEAVY = 64 /* weights above 1: samples other than by visible normals, or masking that is too bright */

@@ -72,10 +72,10 @@ static lobe_iridescent_conductor make_iridescent_conductor(const double *p)
 /* alpha_x, alpha_y, thickness, film index, eta, transport */
 static lobe_iridescent_dielectric make_iridescent_dielectric(const double *p)
 {
-	return lobe_iridescent_dielectric_transport(
-		lobe_iridescent_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2], (lobe_real)p[3],
-						(lobe_real)p[4]),
-		(lobe_uint)p[5]);
+	return lobe_iridescent_dielectric_transport(lobe_iridescent_dielectric_make((lobe_real)p[0], (lobe_real)p[1],
+										    (lobe_real)p[2], (lobe_real)p[3],
+										    (lobe_real)p[4]),
+						    (lobe_uint)p[5]);
 }
 
 /* What the comparison lobes have in common, from p[8] on: distribution, exponent, width; map as xy, yx, mean slope x, y

@@ -175,6 +175,17 @@ static void test_bad_parameters(void)
 	refuse(lobe_bsdf_from_ggx_dielectric(
 		       lobe_ggx_dielectric_transport(lobe_ggx_dielectric_make(0.1f, 0.1f, 1.5f), 7)),
 	       "transport");
+	refuse(lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(0.1f, 0.1f, lobe_rgb_make(0, 1.5f, 0), one)), "f0.g");
+	refuse(lobe_bsdf_from_mirror(lobe_mirror_make(lobe_rgb_make(0, 0, -1))), "reflectance.b");
+	refuse(lobe_bsdf_from_smooth_dielectric(lobe_smooth_dielectric_make(NAN)), "eta");
+	refuse(lobe_bsdf_from_thin_dielectric(lobe_thin_dielectric_make(0)), "eta");
+	refuse(lobe_bsdf_from_iridescent_conductor(lobe_iridescent_conductor_make(0.1f, 0.1f, -1, 1.5f, one, one)),
+	       "film.thickness");
+	refuse(lobe_bsdf_from_iridescent_conductor(lobe_iridescent_conductor_make(0.1f, 0.1f, 1, 0.9f, one, one)),
+	       "film.index");
+	/* Rarer than both sides, though not than the outside. */
+	refuse(lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.1f, 0.1f, 1, 0.6f, 0.7f)),
+	       "film.index");
 	/* A struct that did not come from make. */
 	lobe_bsdf zero;
 	memset(&zero, 0, sizeof zero);

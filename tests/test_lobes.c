@@ -92,7 +92,8 @@ static void check_sample(const test_case *c, lobe_vec3 wo, lobe_vec3 u, tally *t
 	if (c->flags & CASE_HEAVY)
 		bound = (double)LOBE_REAL_MAX;
 	for (int k = 0; k < 3; k++)
-		t->too_bright += !(component(s.weight, k) >= 0.0 && component(s.weight, k) <= bound * (coloured ? 3.0 : 1.0));
+		t->too_bright +=
+			!(component(s.weight, k) >= 0.0 && component(s.weight, k) <= bound * (coloured ? 3.0 : 1.0));
 	t->too_bright += coloured && !(mean <= bound);
 }
 

@@ -233,7 +233,8 @@ static void observe(const scene *s, uint32_t stream, histogram *h)
 			const double_sample r = double_sample_at(s->c->kind, s->c->parameter, wo, v);
 			h->observed[bin_of(s, r.wi, r.event)]++;
 		} else {
-			const double wi[3] = {(double)batch_out[0][i], (double)batch_out[1][i], (double)batch_out[2][i]};
+			const double wi[3] = {(double)batch_out[0][i], (double)batch_out[1][i],
+					      (double)batch_out[2][i]};
 			h->observed[bin_of(s, wi, batch_event[i])]++;
 		}
 	}

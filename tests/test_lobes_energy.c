@@ -33,7 +33,8 @@ typedef struct {
 static double core_f(const view *v, lobe_vec3 wi)
 {
 	const lobe_vec3 h = lobe_normalize(lobe_vec3_add(v->wo, wi));
-	const lobe_real g = lobe_smith_g2_over_cos(v->wo.z, stretched_ggx_t(v->ggx, v->wo), wi.z, stretched_ggx_t(v->ggx, wi));
+	const lobe_real g =
+		lobe_smith_g2_over_cos(v->wo.z, stretched_ggx_t(v->ggx, v->wo), wi.z, stretched_ggx_t(v->ggx, wi));
 	return wi.z > 0.0f ? 0.25 * (double)stretched_ggx_d(v->ggx, h) * (double)g : 0.0;
 }
 

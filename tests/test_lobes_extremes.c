@@ -173,7 +173,8 @@ static lobe_bsdf fresnel_end(unsigned i)
 	static const float indices[] = {1.0f, 0x1.000002p0f, 1.5f, 1000.0f};
 	static const float thicknesses[] = {0.0f, 1e-30f, 1.0f, 500.0f, 1e6f};
 	static const float alphas[] = {1e-4f, 1.0f};
-	const float alpha = alphas[i & 1u], eta = etas[i / 2 % 6], film = indices[i / 12 % 4], d = thicknesses[i / 48 % 5];
+	const float alpha = alphas[i & 1u], eta = etas[i / 2 % 6], film = indices[i / 12 % 4],
+		    d = thicknesses[i / 48 % 5];
 	const lobe_rgb n = lobe_rgb_make(eta, indices[i / 12 % 4], 1.0f);
 	const lobe_rgb k = lobe_rgb_make(0.0f, indices[(i + 3) % 4], i & 4u ? 1000.0f : 0.0f);
 	const float f = i / 48 & 1 ? 1.0f : 0.0f;
@@ -186,8 +187,9 @@ static lobe_bsdf fresnel_end(unsigned i)
 	case 2:
 		return lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(alpha, 1.0f, d, film, eta));
 	case 3:
-		return lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(
-			alpha, i & 2u ? 1e-4f : 1.0f, lobe_rgb_make(f, 0.5f, 0.0f), lobe_rgb_make(1.0f - f, 0.0f, 0.0f)));
+		return lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(alpha, i & 2u ? 1e-4f : 1.0f,
+									lobe_rgb_make(f, 0.5f, 0.0f),
+									lobe_rgb_make(1.0f - f, 0.0f, 0.0f)));
 	case 4:
 		return i & 1u ? lobe_bsdf_from_smooth_dielectric(lobe_smooth_dielectric_make(eta))
 			      : lobe_bsdf_from_thin_dielectric(lobe_thin_dielectric_make(eta));
@@ -292,7 +294,7 @@ typedef struct {
 	}
 #define FIELD(lobe, member, channel) FIELDS(lobe, member, member, channel, 0)
 #define WIDTH(lobe, member)          FIELDS(lobe, member, member, -1, 1)
-#define RGB_FIELD(lobe, member) FIELD(lobe, member.r, 0), FIELD(lobe, member.g, 1), FIELD(lobe, member.b, 2)
+#define RGB_FIELD(lobe, member)      FIELD(lobe, member.r, 0), FIELD(lobe, member.g, 1), FIELD(lobe, member.b, 2)
 #define STRETCH_FIELD(lobe, member)                                                                                    \
 	WIDTH(lobe, member.alpha_x), WIDTH(lobe, member.alpha_y), WIDTH(lobe, member.inv_alpha_x),                     \
 		WIDTH(lobe, member.inv_alpha_y), WIDTH(lobe, member.norm)

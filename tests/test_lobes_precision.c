@@ -77,8 +77,8 @@ static double iridescent_dielectric_condition(const test_case *c, double cosine,
 {
 	const lobe_iridescent_dielectric p = c->bsdf.as.iridescent_dielectric;
 	const double cos_t = sqrt(fmax(0.0, 1.0 - (1.0 - cosine * cosine) / (e * e)));
-	const lobe_film_fresnel f = lobe_thin_film_dielectric_rgb((float)(e < 1.0 ? cos_t : cosine), p.film,
-								  (float)fmax(e, 1.0 / e));
+	const lobe_film_fresnel f =
+		lobe_thin_film_dielectric_rgb((float)(e < 1.0 ? cos_t : cosine), p.film, (float)fmax(e, 1.0 / e));
 	const lobe_rgb share = transmits ? f.transmittance : f.reflectance;
 	return (8.0 + case_film_condition(c)) / fmax(fmin((double)share.r, (double)share.b), 1e-30);
 }

@@ -1,5 +1,6 @@
 #include "textbook.h"
 
+#include <complex.h>
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -82,6 +83,33 @@ double textbook_fresnel_conductor(double c, double n, double k)
 	const double s = ratio2(c, 0.0, root_re, root_im);
 	const double p = ratio2((n * n - k * k) * c, im * c, root_re, root_im);
 	return 0.5 * (s + p);
+}
+
+/* r_s and r_p between media a and b, ca and cb the cosines in them. */
+static double complex amplitude(double complex na, double complex ca, double complex nb, double complex cb, int p)
+{
+	return p ? (nb * ca - na * cb) / (nb * ca + na * cb) : (na * ca - nb * cb) / (na * ca + nb * cb);
+}
+
+/* The cosine in a medium of index n, for the sine times index s of all layers. */
+static double complex cosine_in(double complex n, double s)
+{
+	const double complex root = csqrt(1.0 - s * s / (n * n));
+	return cimag(n * root) < 0.0 ? -root : root;
+}
+
+double textbook_airy(double c, double n0, double nf, double d, double n, double k, double wavelength)
+{
+	const double s = n0 * sqrt((1.0 - c) * (1.0 + c));
+	const double complex nb = n + k * (double complex)I, cf = cosine_in(nf, s), cb = cosine_in(nb, s);
+	const double complex turn = cexp((double complex)I * 4.0 * PI * nf * cf * d / wavelength);
+	double sum = 0.0;
+	for (int p = 0; p < 2; p++) {
+		const double complex top = amplitude(n0, c, nf, cf, p), bottom = amplitude(nf, cf, nb, cb, p);
+		const double r = cabs((top + bottom * turn) / (1.0 + top * bottom * turn));
+		sum += 0.5 * r * r;
+	}
+	return sum;
 }
 
 double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3], const double wi[3])

@@ -13,20 +13,39 @@ typedef struct {
 	lobe_real reflectance, transmittance, cos_t, bend;
 } lobe_fresnel;
 
-/* Amplitudes of a dielectric interface and what they are made of. c: at least 2^-40; g = eta cos_t, 0 at total
- * reflection; k = (eta - 1)(eta + 1); a = 1/(c + g), b = 1/(eta^2 c + g); rs = -r_s, rp = r_p (Born and Wolf's signs). */
+/* Amplitudes between two dielectrics of indices n1 and n2, from n1 cos_1 = c and n2 cos_2 = g, k = n2^2 - n1^2 = g^2 - c^2
+ * and s2, the square of n sin on both sides. With A = c + g, B = n2^2 c + n1^2 g they (Born and Wolf, 1.5.2)
+ *	r_s = (c - g)/A                = -k/A^2
+ *	r_p = (n2^2 c - n1^2 g)/B      = k (c g - s2)/(A B)
+ * are free of cancellation however near the indices are (but for the zero of r_p at Brewster's angle).
+ * a = 1/A, b = 1/B, rs = -r_s, rp = r_p. */
 typedef struct {
-	lobe_real c, g, k, eta2, a, b, rs, rp;
+	lobe_real a, b, rs, rp;
+} lobe_fresnel_pair;
+
+LOBE_FN lobe_fresnel_pair lobe_fresnel_pair_make(lobe_real c, lobe_real g, lobe_real k, lobe_real s2,
+						 lobe_real n1_squared, lobe_real n2_squared)
+{
+	const lobe_real big_a = c + g;
+	const lobe_real big_b = lobe_fma(n2_squared, c, n1_squared * g);
+	const lobe_real inv = LOBE_R(1.0) / (big_a * big_b);
+	lobe_fresnel_pair f;
+	f.a = inv * big_b;
+	f.b = inv * big_a;
+	f.rs = k * f.a * f.a;
+	f.rp = k * lobe_fma(c, g, -s2) * f.a * f.b;
+	return f;
+}
+
+/* The interface of index eta. c: at least 2^-40; g = eta cos_t, 0 at total reflection; k = (eta - 1)(eta + 1);
+ * s2 = sin^2. */
+typedef struct {
+	lobe_real c, g, k, s2, eta2;
+	lobe_fresnel_pair r;
 	int total;
 } lobe_fresnel_amplitudes;
 
-/* Domain: eta in [1/1000, 1000].
- *
- * With g = eta cos_t, A = c + g, B = eta^2 c + g, k = (eta-1)(eta+1) = g^2 - c^2 the amplitudes (Born and Wolf, 1.5.2)
- *	r_s = (c - g)/A              = -k/A^2
- *	r_p = (eta^2 c - g)/B        = k (c g - sin^2)/(A B)
- * are free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle). g^2 is c^2 + k or,
- * where that cancels, eta^2 - sin^2. */
+/* Domain: eta in [1/1000, 1000]. g^2 is c^2 + k or, where that cancels, eta^2 - sin^2. */
 LOBE_FN lobe_fresnel_amplitudes lobe_fresnel_amplitudes_make(lobe_real c_in, lobe_real eta)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
@@ -34,19 +53,13 @@ LOBE_FN lobe_fresnel_amplitudes lobe_fresnel_amplitudes_make(lobe_real c_in, lob
 	f.c = lobe_max(c_in, LOBE_R(0x1p-40));
 	f.k = (eta - one) * (eta + one);
 	f.eta2 = eta * eta;
-	const lobe_real s2 = (one - f.c) * (one + f.c);
-	const lobe_real g2_thin = lobe_fma(eta, eta, -s2);
+	f.s2 = (one - f.c) * (one + f.c);
+	const lobe_real g2_thin = lobe_fma(eta, eta, -f.s2);
 	const lobe_real g2_thick = lobe_fma(f.c, f.c, f.k);
 	const lobe_real g2 = f.eta2 < LOBE_R(0.5) ? g2_thin : g2_thick;
 	f.total = g2 <= zero;
 	f.g = lobe_sqrt(f.total ? zero : g2);
-	const lobe_real big_a = f.c + f.g;
-	const lobe_real big_b = lobe_fma(f.eta2, f.c, f.g);
-	const lobe_real inv = one / (big_a * big_b);
-	f.a = inv * big_b;
-	f.b = inv * big_a;
-	f.rs = f.k * f.a * f.a;
-	f.rp = f.k * lobe_fma(f.c, f.g, -s2) * f.a * f.b;
+	f.r = lobe_fresnel_pair_make(f.c, f.g, f.k, f.s2, one, f.eta2);
 	return f;
 }
 
@@ -61,8 +74,8 @@ LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
 	const lobe_fresnel_amplitudes m = lobe_fresnel_amplitudes_make(c, eta);
-	const lobe_real refl = LOBE_R(0.5) * lobe_fma(m.rs, m.rs, m.rp * m.rp);
-	const lobe_real trans = two * m.g * m.c * lobe_fma(m.a, m.a, m.eta2 * m.b * m.b);
+	const lobe_real refl = LOBE_R(0.5) * lobe_fma(m.r.rs, m.r.rs, m.r.rp * m.r.rp);
+	const lobe_real trans = two * m.g * m.c * lobe_fma(m.r.a, m.r.a, m.eta2 * m.r.b * m.r.b);
 	const lobe_real refl_at_most_1 = lobe_at_most(refl, one);
 	const lobe_real trans_at_most_1 = lobe_at_most(trans, one);
 	const lobe_real through = m.k == zero ? one : trans_at_most_1;
@@ -70,7 +83,7 @@ LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
 	f.reflectance = m.total ? one : refl_at_most_1;
 	f.transmittance = m.total ? zero : through;
 	f.cos_t = m.g / eta;
-	f.bend = m.k * m.a;
+	f.bend = m.k * m.r.a;
 	return f;
 }
 

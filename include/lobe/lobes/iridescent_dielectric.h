@@ -119,9 +119,9 @@ LOBE_FN lobe_sample lobe_iridescent_dielectric_sample(lobe_iridescent_dielectric
 	const lobe_real pdf = straight ? chosen.mean : density;
 	const lobe_real w = lobe_rough_dielectric_weight(ndf, p.glass, v, x.i, reflects);
 	const lobe_real per_mean = w / (straight ? chosen.mean : found.mean);
-	const lobe_rgb colour = lobe_rgb_make(straight ? chosen.rgb.r : found.rgb.r,
-					      straight ? chosen.rgb.g : found.rgb.g,
-					      straight ? chosen.rgb.b : found.rgb.b);
+	const lobe_rgb colour =
+		lobe_rgb_make(straight ? chosen.rgb.r : found.rgb.r, straight ? chosen.rgb.g : found.rgb.g,
+			      straight ? chosen.rgb.b : found.rgb.b);
 	return lobe_sample_select(lobe_min(x.right_side, pdf) > LOBE_R(0.0), wi,
 				  lobe_rgb_finite_or_zero(lobe_rgb_scale(colour, per_mean)), pdf,
 				  lobe_rough_dielectric_event(p.glass, reflects));

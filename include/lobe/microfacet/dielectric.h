@@ -232,8 +232,8 @@ LOBE_FN lobe_real lobe_rough_dielectric_weight(lobe_uint ndf, lobe_rough_dielect
 
 LOBE_FN lobe_uint lobe_rough_dielectric_event(lobe_rough_dielectric p, int reflects)
 {
-	const lobe_uint refracts = p.delta != 0u ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA
-						 : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY;
+	const lobe_uint refracts =
+		p.delta != 0u ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY;
 	return reflects ? LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY : refracts;
 }
 

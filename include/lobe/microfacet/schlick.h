@@ -46,8 +46,7 @@ LOBE_FN lobe_real lobe_rough_schlick_pdf(lobe_uint ndf, lobe_rough_schlick p, lo
 
 LOBE_FN lobe_sample lobe_rough_schlick_sample(lobe_uint ndf, lobe_rough_schlick p, lobe_vec3 wo, lobe_vec3 u)
 {
-	const lobe_reflection_sample r =
-		lobe_reflection_sample_at(ndf, p.stretch, lobe_rough_schlick_params(p), wo, u);
+	const lobe_reflection_sample r = lobe_reflection_sample_at(ndf, p.stretch, lobe_rough_schlick_params(p), wo, u);
 	return lobe_reflection_tint_sample(r, lobe_rough_schlick_fresnel(p, r.h2));
 }
 
