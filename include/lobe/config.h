@@ -31,6 +31,9 @@
 #ifndef LOBE_HAS_MICROFACET_DIELECTRIC
 #define LOBE_HAS_MICROFACET_DIELECTRIC LOBE_HAS_DEFAULT
 #endif
+#ifndef LOBE_HAS_MICROFACET_DIFFUSE
+#define LOBE_HAS_MICROFACET_DIFFUSE LOBE_HAS_DEFAULT
+#endif
 
 /* The distributions of microfacet normals that those lobes need. */
 #ifndef LOBE_HAS_NDF_GGX
@@ -43,6 +46,6 @@
 /* The linked library has every lobe; its lobe_bsdf is a union over them all. */
 #define LOBE_HAS_ALL                                                                                                   \
 	(LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC && LOBE_HAS_MICROFACET_CONDUCTOR &&     \
-	 LOBE_HAS_MICROFACET_DIELECTRIC)
+	 LOBE_HAS_MICROFACET_DIELECTRIC && LOBE_HAS_MICROFACET_DIFFUSE)
 
 #endif
