@@ -34,6 +34,58 @@ static lobe_bsdf material_ggx_dielectric(void)
 }
 #endif
 
+#if LOBE_HAS_GGX_SCHLICK
+static lobe_bsdf material_ggx_schlick(void)
+{
+	return lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(0.3f, 0.2f, lobe_rgb_make(0.9f, 0.6f, 0.3f),
+								 lobe_rgb_make(1.0f, 1.0f, 1.0f)));
+}
+#endif
+
+#if LOBE_HAS_MIRROR
+static lobe_bsdf material_mirror(void)
+{
+	return lobe_bsdf_from_mirror(lobe_mirror_make(lobe_rgb_make(0.8f, 0.85f, 0.9f)));
+}
+#endif
+
+#if LOBE_HAS_SMOOTH_CONDUCTOR
+static lobe_bsdf material_smooth_conductor(void)
+{
+	return lobe_bsdf_from_smooth_conductor(
+		lobe_smooth_conductor_make(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
+}
+#endif
+
+#if LOBE_HAS_SMOOTH_DIELECTRIC
+static lobe_bsdf material_smooth_dielectric(void)
+{
+	return lobe_bsdf_from_smooth_dielectric(lobe_smooth_dielectric_make(1.5f));
+}
+#endif
+
+#if LOBE_HAS_THIN_DIELECTRIC
+static lobe_bsdf material_thin_dielectric(void)
+{
+	return lobe_bsdf_from_thin_dielectric(lobe_thin_dielectric_make(1.5f));
+}
+#endif
+
+#if LOBE_HAS_IRIDESCENT_CONDUCTOR
+static lobe_bsdf material_iridescent_conductor(void)
+{
+	return lobe_bsdf_from_iridescent_conductor(lobe_iridescent_conductor_make(
+		0.3f, 0.2f, 400.0f, 1.8f, lobe_metal_eta(LOBE_METAL_IRON), lobe_metal_k(LOBE_METAL_IRON)));
+}
+#endif
+
+#if LOBE_HAS_IRIDESCENT_DIELECTRIC
+static lobe_bsdf material_iridescent_dielectric(void)
+{
+	return lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.3f, 0.2f, 400.0f, 1.38f, 1.5f));
+}
+#endif
+
 /* What ggx_conductor and ggx_dielectric do, chosen at run time. */
 #if LOBE_HAS_MICROFACET_CONDUCTOR || LOBE_HAS_MICROFACET_DIELECTRIC || LOBE_HAS_MICROFACET_DIFFUSE
 static lobe_microsurface microsurface(void)

@@ -27,20 +27,46 @@ typedef struct {
 
 /* One float rounding is allowed at the ends. */
 #define ALPHA_MIN 0.99999e-4
-#define STRETCH(lobe)                                                                                                  \
-	REAL(lobe, stretch.alpha_x, ALPHA_MIN, 1), REAL(lobe, stretch.alpha_y, ALPHA_MIN, 1),                          \
-		REAL(lobe, stretch.inv_alpha_x, 1, 1 / ALPHA_MIN), REAL(lobe, stretch.inv_alpha_y, 1, 1 / ALPHA_MIN),  \
-		REAL(lobe, stretch.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
+#define STRETCH(lobe, member)                                                                                          \
+	REAL(lobe, member.alpha_x, ALPHA_MIN, 1), REAL(lobe, member.alpha_y, ALPHA_MIN, 1),                            \
+		REAL(lobe, member.inv_alpha_x, 1, 1 / ALPHA_MIN), REAL(lobe, member.inv_alpha_y, 1, 1 / ALPHA_MIN),    \
+		REAL(lobe, member.norm, 0.3, 1 / (ALPHA_MIN * ALPHA_MIN))
+#define INDEX(lobe, member)     REAL(lobe, member, 0.99999e-3, 1000.01)
+#define METAL(lobe)             RGB(lobe, eta, 0.99999e-3, 1000), RGB(lobe, k, 0, 1000)
+#define FILM(lobe, index_max)   REAL(lobe, film.thickness, 0, 1e6), REAL(lobe, film.index, 0.999999, index_max)
+#define TRANSPORT(lobe, member) UINT(lobe, member, LOBE_TRANSPORT_IMPORTANCE)
 
 static const field fields_lambert[] = {RGB(lambert, reflectance, 0, 1)};
 
-static const field fields_ggx_conductor[] = {STRETCH(ggx_conductor), RGB(ggx_conductor, eta, 0.99999e-3, 1000),
-					     RGB(ggx_conductor, k, 0, 1000)};
+static const field fields_ggx_conductor[] = {STRETCH(ggx_conductor, stretch), METAL(ggx_conductor)};
 
-static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric), REAL(ggx_dielectric, eta, 0.99999e-3, 1000.01),
-					      REAL(ggx_dielectric, inv_eta, 0.99999e-3, 1000.01),
-					      UINT(ggx_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
+static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric, stretch), INDEX(ggx_dielectric, eta),
+					      INDEX(ggx_dielectric, inv_eta), TRANSPORT(ggx_dielectric, transport),
 					      UINT(ggx_dielectric, delta, 1)};
+
+static const field fields_ggx_schlick[] = {STRETCH(ggx_schlick, stretch), RGB(ggx_schlick, f0, 0, 1),
+					   RGB(ggx_schlick, f90, 0, 1)};
+
+static const field fields_mirror[] = {RGB(mirror, reflectance, 0, 1)};
+
+static const field fields_smooth_conductor[] = {METAL(smooth_conductor)};
+
+static const field fields_smooth_dielectric[] = {INDEX(smooth_dielectric, eta), INDEX(smooth_dielectric, inv_eta),
+						 TRANSPORT(smooth_dielectric, transport)};
+
+static const field fields_thin_dielectric[] = {INDEX(thin_dielectric, eta)};
+
+static const field fields_iridescent_conductor[] = {STRETCH(iridescent_conductor, stretch),
+						    METAL(iridescent_conductor), FILM(iridescent_conductor, 1000)};
+
+/* Its film's index is over the thinner medium's. */
+static const field fields_iridescent_dielectric[] = {
+	STRETCH(iridescent_dielectric, glass.stretch),
+	INDEX(iridescent_dielectric, glass.eta),
+	INDEX(iridescent_dielectric, glass.inv_eta),
+	TRANSPORT(iridescent_dielectric, glass.transport),
+	UINT(iridescent_dielectric, glass.delta, 1),
+	FILM(iridescent_dielectric, 1.0001e6)};
 
 /* A table's handle has no domain here: lobe_check_table sees to it. */
 #define LINEAR(lobe, map)                                                                                              \
@@ -60,10 +86,11 @@ static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric), REAL(ggx_
 		UINT(lobe, surface.masking, LOBE_MASKING_LAST), UINT(lobe, surface.joint, LOBE_JOINT_LAST),            \
 		UINT(lobe, surface.across, LOBE_ACROSS_BETA), REAL(lobe, surface.like, 0, 1000),                       \
 		REAL(lobe, surface.alpha, 0, 1000), REAL(lobe, surface.narrow, 0, 1000)
-/* What a and b are is told by the model; the widest of them is the index of a conductor. */
+/* What they are is told by the model. Of a and b the widest is the index of a conductor, and a dip's depth may be
+ * negative; of c and d a film's thickness and index. */
 #define FRESNEL(lobe)                                                                                                  \
-	UINT(lobe, fresnel.model, LOBE_FRESNEL_LAST), RGB(lobe, fresnel.a, 0, 1000), RGB(lobe, fresnel.b, 0, 1000),    \
-		REAL(lobe, fresnel.c, 0, 1e6), REAL(lobe, fresnel.d, 0, 1e6)
+	UINT(lobe, fresnel.model, LOBE_FRESNEL_LAST), RGB(lobe, fresnel.a, 0, 1000), RGB(lobe, fresnel.b, -1, 1000),    \
+		REAL(lobe, fresnel.c, 0, 1e6), REAL(lobe, fresnel.d, 0, 1.0001e6)
 
 static const field fields_microfacet_conductor[] = {
 	MICROSURFACE(microfacet_conductor), FRESNEL(microfacet_conductor),

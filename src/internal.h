@@ -146,6 +146,9 @@ void lobe_tables_rebase(lobe_scene *scene, uint64_t base);
 /* Whether the table of materials[i], if it has one, begins with its own length. (tables.c) */
 lobe_status lobe_check_table(const lobe_bsdf *materials, size_t i);
 
+/* The table of microfacet/profile.h for a density of slopes f, up to a factor; untouched on failure. (profile_table.c) */
+lobe_status lobe_profile_make(float *table, lobe_profile_function f, void *context);
+
 /* Backends. lobe_native_open: threads 0 means all processors. (native.c, opencl.c) */
 lobe_status lobe_native_open(lobe_device **out, size_t threads);
 lobe_status lobe_opencl_count(size_t *count);

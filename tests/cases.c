@@ -94,6 +94,66 @@ static const recipe ggx_dielectric_recipes[] = {
 	{"eta .999 .3", {0.3, 0.3, 0.999, RADIANCE}},
 };
 
+static const recipe ggx_schlick_recipes[] = {
+	{"plastic .1", {0.1, 0.1, 0.04, 0.04, 0.04, 1, 1, 1}},
+	{"gold colour .5", {0.5, 0.5, 1, 0.77, 0.34, 1, 1, 1}},
+	{"white 1", {1, 1, 1, 1, 1, 1, 1, 1}},
+	{"dark edge .2:.6", {0.2, 0.6, 0.9, 0.6, 0.3, 0.1, 0.2, 0.3}},
+	{"from black .0001:.3", {1e-4, 0.3, 0, 0, 0, 1, 0.5, 0}},
+	{"plastic .0001", {1e-4, 1e-4, 0.04, 0.05, 0.06, 1, 1, 1}},
+};
+
+static const recipe mirror_recipes[] = {
+	{"mirror white", {1, 1, 1}},
+	{"mirror blue", {0.1, 0.4, 0.9}},
+	{"mirror black", {0, 0, 0}},
+};
+
+static const recipe smooth_conductor_recipes[] = {
+	{"polished gold", {METAL(GOLD)}},
+	{"polished chromium", {METAL(CHROMIUM)}},
+	{"polished perfect", {GREY(1e-3, 1000)}},
+	{"polished index 1", {GREY(1, 0)}},
+};
+
+static const recipe smooth_dielectric_recipes[] = {
+	{"polished glass", {1.5, RADIANCE}},
+	{"polished diamond importance", {2.4175, IMPORTANCE}},
+	{"polished bubble", {1 / 1.5, RADIANCE}},
+	{"polished eta 1/1000", {1e-3, RADIANCE}},
+	{"polished eta 1000 importance", {1000, IMPORTANCE}},
+	{"polished eta 1", {1, RADIANCE}},
+	{"polished eta 1+1e-6", {1 + 1e-6, IMPORTANCE}},
+};
+
+static const recipe thin_dielectric_recipes[] = {
+	{"pane glass", {1.5}},
+	{"pane of air", {1 / 1.5}},
+	{"pane eta 1", {1}},
+	{"pane eta 1000", {1000}},
+	{"pane eta 1/1000", {1e-3}},
+};
+
+/* alpha_x, alpha_y, thickness, film index, n + ik */
+static const recipe iridescent_conductor_recipes[] = {
+	{"tempered iron .3", {0.3, 0.3, 120, 2.9, METAL(IRON)}},
+	{"anodised titanium .2:.5", {0.2, 0.5, 350, 2.4, METAL(TITANIUM)}},
+	{"coated copper .0001", {1e-4, 1e-4, 550, 1.33, METAL(COPPER)}},
+	{"bare gold .5", {0.5, 0.5, 0, 1.5, METAL(GOLD)}},
+	{"thick on silver 1", {1, 1, 1e5, 1.5, METAL(SILVER)}},
+	{"film of index 1 on aluminium .1", {0.1, 0.1, 400, 1, METAL(ALUMINIUM)}},
+};
+
+/* alpha_x, alpha_y, thickness, film index, eta, transport */
+static const recipe iridescent_dielectric_recipes[] = {
+	{"coated glass .3", {0.3, 0.3, 110, 1.38, 1.5, RADIANCE}},
+	{"oil on water .5 importance", {0.5, 0.5, 420, 1.47, 1.33, IMPORTANCE}},
+	{"titania on glass .2:.4", {0.2, 0.4, 260, 2.4, 1.5, RADIANCE}},
+	{"film in a bubble .3", {0.3, 0.3, 300, 1.2, 1 / 1.5, RADIANCE}},
+	{"bare glass .01", {0.01, 0.01, 0, 1.38, 1.5, IMPORTANCE}},
+	{"film of index 1 around nothing .1", {0.1, 0.1, 500, 1, 1, RADIANCE}},
+};
+
 /* alpha_x, alpha_y, then by the lobe; the surface from [8] on: cases_make.h. */
 #define SURFACE(ndf, exponent, width, xy, yx, mean_x, mean_y) ndf, exponent, width, xy, yx, mean_x, mean_y
 #define GGX                                                   SURFACE(LOBE_NDF_GGX, 0, 1, 0, 0, 0, 0)
@@ -109,15 +169,21 @@ static const recipe microfacet_conductor_recipes[] = {
 	{"grey tilted ellipsoid",
 	 {0.5, 0.3, GREY(0.5, 0), GGX_TILTED, MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE_ELLIPSOID, CONSTANT)}},
 	{"schlick bounded .5:.2",
-	 {0.5, 0.2, GREY(0.3, 0), GGX, MASKING(SMITH, HEIGHT_DIRECTION, SEPARABLE), BY(BOUNDED_CAP, SCHLICK)}},
+	 {0.5, 0.2, GREY(0.3, 1), GGX, MASKING(SMITH, HEIGHT_DIRECTION, SEPARABLE), BY(BOUNDED_CAP, SCHLICK)}},
 	{"silver cavities .6",
 	 {0.6, 0.6, METAL(SILVER), 0, 0, 0, 0, 0, GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE), BY(VCAVITY, EXACT)}},
-	{"iron kelemen cosine .5",
+	{"phong 30 hemisphere",
+	 {1, 0.6, METAL(NICKEL), 0, 0, 0, 0, 0, SURFACE(LOBE_NDF_PHONG, 30, 1, 0, 0, 0, 0),
+	  MASKING(SMITH, HEIGHT, SEPARABLE), BY(HEMISPHERE, EXACT)}},
+	{"gtr 1.5 visible f82",
+	 {1, 0.7, 0.9, 0.7, 0.4, 0.1, 0.2, 0.3, SURFACE(LOBE_NDF_GTR, 1.5, 0.3, 0, 0, 0, 0),
+	  MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE, F82)}},
+	{"iron neumann cosine .5",
 	 {0.5, 0.5, METAL(IRON), 0, 0, 0, 0, 0, GGX, MASKING(NEUMANN, HEIGHT, SEPARABLE), BY(COSINE, EXACT)}},
 };
 
-/* eta, transport, a constant or normal reflectance */
-#define GLASS(eta, transport, r) eta, transport, r, r, r, 0
+/* eta, transport, reflectance that is constant or at normal incidence, and that at grazing */
+#define GLASS(eta, transport, r) eta, transport, r, r, r, 1
 
 static const recipe microfacet_dielectric_recipes[] = {
 	{"glass slopes .3:.1",
@@ -132,6 +198,9 @@ static const recipe microfacet_dielectric_recipes[] = {
 	 {1, 1, GLASS(2.4175, IMPORTANCE, 0), GGX, MASKING(SCHLICK_GGX, HEIGHT, SEPARABLE), BY(UNIFORM, EXACT)}},
 	{"half mirror bounded .6",
 	 {0.6, 0.6, GLASS(1.33, RADIANCE, 0.5), GGX, MASKING(SMITH, HEIGHT, SEPARABLE), BY(BOUNDED_CAP, CONSTANT)}},
+	{"student 3 tilted cap",
+	 {0.5, 0.4, GLASS(1.5, RADIANCE, 0), SURFACE(LOBE_NDF_STUDENT_T, 3, 1, 0.1, 0, 0.1, 0.2),
+	  MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE_CAP, EXACT)}},
 	{"eta 1 ellipsoid .5",
 	 {0.5, 0.5, GLASS(1, RADIANCE, 0), GGX, MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE_ELLIPSOID, EXACT)}},
 };
@@ -159,6 +228,38 @@ static void describe_ggx_dielectric(test_case *c)
 	c->eta = c->parameter[2];
 	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_RECIPROCAL |
 		   (c->bsdf.as.ggx_dielectric.delta != 0u ? CASE_DELTA : 0u);
+}
+
+static void describe_ggx_schlick(test_case *c) { describe_ggx_conductor(c); }
+
+static void describe_mirror(test_case *c) { c->flags = CASE_TWO_SIDED | CASE_DELTA | CASE_DELTA_ONLY; }
+
+static void describe_smooth_conductor(test_case *c) { c->flags = CASE_DELTA | CASE_DELTA_ONLY; }
+
+static void describe_smooth_dielectric(test_case *c)
+{
+	c->eta = c->parameter[0];
+	c->transport_at = 1;
+	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_DELTA | CASE_DELTA_ONLY;
+}
+
+/* The same medium on both sides. */
+static void describe_thin_dielectric(test_case *c)
+{
+	c->eta = 1.0;
+	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_DELTA | CASE_DELTA_ONLY;
+}
+
+static void describe_iridescent_conductor(test_case *c) { describe_ggx_conductor(c); }
+
+static void describe_iridescent_dielectric(test_case *c)
+{
+	c->alpha_x = c->parameter[0];
+	c->alpha_y = c->parameter[1];
+	c->eta = c->parameter[4];
+	c->transport_at = 5;
+	c->flags = CASE_TWO_SIDED | CASE_TRANSMITS | CASE_RECIPROCAL | CASE_COLOURED |
+		   (c->bsdf.as.iridescent_dielectric.glass.delta != 0u ? CASE_DELTA : 0u);
 }
 
 /* Whether samples weigh at most F: visible normals of the masking's own surface. */
@@ -207,13 +308,15 @@ static void add(lobe_uint kind, const recipe *recipes, size_t n, void (*describe
 		test_case *c = &cases[count++];
 		double p[CASE_PARAMETERS];
 		memcpy(p, recipes[i].parameter, sizeof p);
-		if (p[2] <= -1.0)
-			memcpy(p + 2, metals[(int)(-1.0 - p[2])], sizeof metals[0]);
+		for (int k = 0; k + 6 <= CASE_PARAMETERS; k++)
+			if (p[k] <= -1.0)
+				memcpy(p + k, metals[(int)(-1.0 - p[k])], sizeof metals[0]);
 		for (int k = 0; k < CASE_PARAMETERS; k++)
 			c->parameter[k] = (double)(float)p[k];
 		c->name = recipes[i].name;
 		c->kind = kind;
 		c->bsdf = make_bsdf(kind, c->parameter);
+		c->transport_at = 3;
 		describe(c);
 	}
 }
@@ -260,4 +363,23 @@ double case_rounding(const test_case *c, lobe_vec3 wo)
 		noise = e < 1.0 ? 0x1p-23 / (e * e) : 0.0;
 	}
 	return fmax(0x1p-24 / turn, noise);
+}
+
+int case_carries_radiance(const test_case *c) { return c->parameter[c->transport_at] == (double)RADIANCE; }
+
+lobe_bsdf case_with_other_transport(const test_case *c)
+{
+	double p[CASE_PARAMETERS];
+	memcpy(p, c->parameter, sizeof p);
+	p[c->transport_at] = case_carries_radiance(c) ? IMPORTANCE : RADIANCE;
+	return make_bsdf(c->kind, p);
+}
+
+double case_film_condition(const test_case *c)
+{
+	if (c->kind != LOBE_KIND_IRIDESCENT_CONDUCTOR && c->kind != LOBE_KIND_IRIDESCENT_DIELECTRIC)
+		return 1.0;
+	/* 1/2.24e-3 nm is the shortest wavelength that counts; a film of many wavelengths has lost its colour. */
+	const double opd = fmin(2.0 * c->parameter[2] * c->parameter[3], 1e4);
+	return 1.0 + 2.0 * 6.2831853 * opd * 2.24e-3;
 }

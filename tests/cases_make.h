@@ -5,6 +5,7 @@
 #ifndef LOBE_TESTS_CASES_MAKE_H
 #define LOBE_TESTS_CASES_MAKE_H
 
+#include "distribution_tables.h"
 #include "lobe/shading.h"
 
 static lobe_rgb make_rgb(const double *p) { return lobe_rgb_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]); }
@@ -25,11 +26,56 @@ static lobe_ggx_dielectric make_ggx_dielectric(const double *p)
 		lobe_ggx_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2]), (lobe_uint)p[3]);
 }
 
+/* alpha_x, alpha_y, f0.rgb, f90.rgb */
+static lobe_ggx_schlick make_ggx_schlick(const double *p)
+{
+	return lobe_ggx_schlick_make((lobe_real)p[0], (lobe_real)p[1], make_rgb(p + 2), make_rgb(p + 5));
+}
+
+/* r, g, b */
+static lobe_mirror make_mirror(const double *p) { return lobe_mirror_make(make_rgb(p)); }
+
+/* n.rgb, k.rgb */
+static lobe_smooth_conductor make_smooth_conductor(const double *p)
+{
+	return lobe_smooth_conductor_make(make_rgb(p), make_rgb(p + 3));
+}
+
+/* eta, transport */
+static lobe_smooth_dielectric make_smooth_dielectric(const double *p)
+{
+	return lobe_smooth_dielectric_transport(lobe_smooth_dielectric_make((lobe_real)p[0]), (lobe_uint)p[1]);
+}
+
+/* eta */
+static lobe_thin_dielectric make_thin_dielectric(const double *p) { return lobe_thin_dielectric_make((lobe_real)p[0]); }
+
+/* alpha_x, alpha_y, thickness, film index, n.rgb, k.rgb */
+static lobe_iridescent_conductor make_iridescent_conductor(const double *p)
+{
+	return lobe_iridescent_conductor_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2], (lobe_real)p[3],
+					      make_rgb(p + 4), make_rgb(p + 7));
+}
+
+/* alpha_x, alpha_y, thickness, film index, eta, transport */
+static lobe_iridescent_dielectric make_iridescent_dielectric(const double *p)
+{
+	return lobe_iridescent_dielectric_transport(
+		lobe_iridescent_dielectric_make((lobe_real)p[0], (lobe_real)p[1], (lobe_real)p[2], (lobe_real)p[3],
+						(lobe_real)p[4]),
+		(lobe_uint)p[5]);
+}
+
 /* What the comparison lobes have in common, from p[8] on: distribution, exponent, width; map as xy, yx, mean slope x, y
  * (xx and yy are alpha_x and alpha_y); masking, joint, across; strategy, Fresnel model and its c and d. */
 static lobe_microsurface make_microsurface(const double *p)
 {
+	const distribution_table t = distribution_table_of((lobe_uint)p[8], p[9], p[10]);
 	lobe_distribution d = lobe_distribution_make((lobe_uint)p[8]);
+	d.exponent = (lobe_real)p[9];
+	d.width = (lobe_real)p[10];
+	d.norm = (lobe_real)t.norm;
+	d.table = lobe_table_at(t.table);
 	const lobe_linear map = lobe_linear_make((lobe_real)p[0], (lobe_real)p[11], (lobe_real)p[12], (lobe_real)p[1],
 						 (lobe_real)p[13], (lobe_real)p[14]);
 	return lobe_microsurface_joint(lobe_microsurface_masking(lobe_microsurface_make(d, map), (lobe_uint)p[15]),
@@ -44,10 +90,11 @@ static lobe_microfacet_conductor make_microfacet_conductor(const double *p)
 	return lobe_microfacet_conductor_make(make_microsurface(p), f, (lobe_uint)p[18]);
 }
 
-/* alpha_x, alpha_y, eta, transport, a.rgb of the Fresnel model, and as above */
+/* alpha_x, alpha_y, eta, transport, a.rgb, b of the Fresnel model, and as above */
 static lobe_microfacet_dielectric make_microfacet_dielectric(const double *p)
 {
-	const lobe_fresnel_model f = lobe_fresnel_model_make((lobe_uint)p[19], make_rgb(p + 4), make_rgb(p + 4),
+	const lobe_rgb grazing = lobe_rgb_make((lobe_real)p[7], (lobe_real)p[7], (lobe_real)p[7]);
+	const lobe_fresnel_model f = lobe_fresnel_model_make((lobe_uint)p[19], make_rgb(p + 4), grazing,
 							     (lobe_real)p[20], (lobe_real)p[21]);
 	return lobe_microfacet_dielectric_transport(
 		lobe_microfacet_dielectric_make(make_microsurface(p), f, (lobe_real)p[2], (lobe_uint)p[18]),

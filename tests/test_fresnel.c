@@ -1,5 +1,6 @@
 /* test_fresnel.c - core/fresnel.h against MPFR and complex arithmetic, core/optics.h and its names. */
 #include "lobe/core/fresnel.h"
+#include "lobe/core/fresnel_schlick.h"
 #include "lobe/optics_names.h"
 
 #include "measured.h"

@@ -143,7 +143,7 @@ static void test_ends_of_the_parameters(void)
 	static const float etas[] = {1e-3f,         1.0f / 3.0f,   0x1.ffffdep-1f, 0x1.fffffep-1f, 1.0f,
 				     0x1.000002p0f, 0x1.000010p0f, 1.0001f,        1.5f,           1000.0f};
 	static const float indices[] = {1e-3f, 1.0f, 3.0f, 1000.0f};
-	test_case c = {"end of a parameter", 0, {0}, {0}, 0, 0, 0, 0};
+	test_case c = {"end of a parameter", 0, {0}, {0}, 0, 0, 0, 0, 0};
 	evaluations = samples = kept = bad = 0;
 	for (size_t a = 0; a < 25; a++) {
 		const float ax = alphas[a % 5], ay = alphas[a / 5];
@@ -162,6 +162,55 @@ static void test_ends_of_the_parameters(void)
 		}
 	}
 	printf("  %lu samples, %lu kept, %lu pairs at ends of the parameters: %lu unsound\n", samples, kept,
+	       evaluations, bad);
+	TEST_ASSERT_EQUAL_UINT(0, bad);
+}
+
+/* The same for the lobes whose Fresnel terms have parameters of their own. */
+static lobe_bsdf fresnel_end(unsigned i)
+{
+	static const float etas[] = {1e-3f, 0x1.fffffep-1f, 1.0f, 0x1.000002p0f, 1.5f, 1000.0f};
+	static const float indices[] = {1.0f, 0x1.000002p0f, 1.5f, 1000.0f};
+	static const float thicknesses[] = {0.0f, 1e-30f, 1.0f, 500.0f, 1e6f};
+	static const float alphas[] = {1e-4f, 1.0f};
+	const float alpha = alphas[i & 1u], eta = etas[i / 2 % 6], film = indices[i / 12 % 4], d = thicknesses[i / 48 % 5];
+	const lobe_rgb n = lobe_rgb_make(eta, indices[i / 12 % 4], 1.0f);
+	const lobe_rgb k = lobe_rgb_make(0.0f, indices[(i + 3) % 4], i & 4u ? 1000.0f : 0.0f);
+	const float f = i / 48 & 1 ? 1.0f : 0.0f;
+	switch (i / 240) {
+	case 0:
+		return lobe_bsdf_from_iridescent_conductor(lobe_iridescent_conductor_make(alpha, 1.0f, d, film, n, k));
+	case 1:
+		return lobe_bsdf_from_iridescent_dielectric(
+			lobe_iridescent_dielectric_make(alpha, alpha, d, film * (eta < 1.0f ? eta : 1.0f), eta));
+	case 2:
+		return lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(alpha, 1.0f, d, film, eta));
+	case 3:
+		return lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(
+			alpha, i & 2u ? 1e-4f : 1.0f, lobe_rgb_make(f, 0.5f, 0.0f), lobe_rgb_make(1.0f - f, 0.0f, 0.0f)));
+	case 4:
+		return i & 1u ? lobe_bsdf_from_smooth_dielectric(lobe_smooth_dielectric_make(eta))
+			      : lobe_bsdf_from_thin_dielectric(lobe_thin_dielectric_make(eta));
+	default:
+		return lobe_bsdf_from_smooth_conductor(lobe_smooth_conductor_make(n, k));
+	}
+}
+
+static void test_ends_of_the_fresnel_parameters(void)
+{
+	test_case c = {"end of a Fresnel parameter", 0, {0}, {0}, 0, 0, 0, 0, 0};
+	evaluations = samples = kept = bad = 0;
+	for (unsigned i = 0; i < 6u * 240u; i++) {
+		c.bsdf = fresnel_end(i);
+		for (size_t m = i % 3u; m < AWKWARD; m += 3u) {
+			for (uint32_t j = 0; j < 4u; j++)
+				check_sample(&c, awkward(m),
+					     lobe_vec3_make(corners[j & 1u ? 5 : 1], corners[j & 2u ? 5 : 0],
+							    corners[(j + m) % CORNERS]));
+			check_pair(&c, awkward(m), awkward((7 * m + i) % AWKWARD));
+		}
+	}
+	printf("  %lu samples, %lu kept, %lu pairs at ends of the Fresnel parameters: %lu unsound\n", samples, kept,
 	       evaluations, bad);
 	TEST_ASSERT_EQUAL_UINT(0, bad);
 }
@@ -229,27 +278,46 @@ static double carries(const lobe_bsdf *b, int channel, uint32_t stream)
 	return sum;
 }
 
-/* offset and bytes of a field of one lobe's struct; channel: the colour that it governs, or -1 for all three. */
+/* offset of a field of one lobe's struct, and of another that is spoilt with it; channel: the colour that it governs, or -1
+ * for all three; is_width: part of the microsurface. */
 typedef struct {
 	const char *name;
-	size_t offset;
-	int channel;
+	size_t offset, with;
+	int channel, is_width;
 } field;
 
-#define FIELD(lobe, member, channel)                                                                                   \
+#define FIELDS(lobe, member, other, channel, is_width)                                                                 \
 	{                                                                                                              \
-#lobe "." #member, offsetof(lobe_##lobe, member), channel                                              \
+#lobe "." #member, offsetof(lobe_##lobe, member), offsetof(lobe_##lobe, other), channel, is_width      \
 	}
+#define FIELD(lobe, member, channel) FIELDS(lobe, member, member, channel, 0)
+#define WIDTH(lobe, member)          FIELDS(lobe, member, member, -1, 1)
 #define RGB_FIELD(lobe, member) FIELD(lobe, member.r, 0), FIELD(lobe, member.g, 1), FIELD(lobe, member.b, 2)
-#define GGX_FIELD(lobe)                                                                                                \
-	FIELD(lobe, stretch.alpha_x, -1), FIELD(lobe, stretch.alpha_y, -1), FIELD(lobe, stretch.inv_alpha_x, -1),                  \
-		FIELD(lobe, stretch.inv_alpha_y, -1), FIELD(lobe, stretch.norm, -1)
+#define STRETCH_FIELD(lobe, member)                                                                                    \
+	WIDTH(lobe, member.alpha_x), WIDTH(lobe, member.alpha_y), WIDTH(lobe, member.inv_alpha_x),                     \
+		WIDTH(lobe, member.inv_alpha_y), WIDTH(lobe, member.norm)
+/* inv_eta serves below the surface alone, eta above: half of the directions do not read it, so a field has to be sound
+ * everywhere and 0 where it is used; eta and inv_eta are spoilt together, as make would. */
+#define ETA_FIELD(lobe, eta, inv_eta) FIELDS(lobe, eta, inv_eta, -1, 0), FIELDS(lobe, inv_eta, eta, -1, 0)
+#define FILM_FIELD(lobe)              FIELD(lobe, film.thickness, -1), FIELD(lobe, film.index, -1)
 
 static const field fields_lambert[] = {RGB_FIELD(lambert, reflectance)};
-static const field fields_ggx_conductor[] = {GGX_FIELD(ggx_conductor), RGB_FIELD(ggx_conductor, eta),
+static const field fields_ggx_conductor[] = {STRETCH_FIELD(ggx_conductor, stretch), RGB_FIELD(ggx_conductor, eta),
 					     RGB_FIELD(ggx_conductor, k)};
-static const field fields_ggx_dielectric[] = {GGX_FIELD(ggx_dielectric), FIELD(ggx_dielectric, eta, -1),
-					      FIELD(ggx_dielectric, inv_eta, -1)};
+static const field fields_ggx_dielectric[] = {STRETCH_FIELD(ggx_dielectric, stretch),
+					      ETA_FIELD(ggx_dielectric, eta, inv_eta)};
+static const field fields_ggx_schlick[] = {STRETCH_FIELD(ggx_schlick, stretch), RGB_FIELD(ggx_schlick, f0),
+					   RGB_FIELD(ggx_schlick, f90)};
+static const field fields_mirror[] = {RGB_FIELD(mirror, reflectance)};
+static const field fields_smooth_conductor[] = {RGB_FIELD(smooth_conductor, eta), RGB_FIELD(smooth_conductor, k)};
+static const field fields_smooth_dielectric[] = {ETA_FIELD(smooth_dielectric, eta, inv_eta)};
+static const field fields_thin_dielectric[] = {FIELD(thin_dielectric, eta, -1)};
+static const field fields_iridescent_conductor[] = {
+	STRETCH_FIELD(iridescent_conductor, stretch), RGB_FIELD(iridescent_conductor, eta),
+	RGB_FIELD(iridescent_conductor, k), FILM_FIELD(iridescent_conductor)};
+static const field fields_iridescent_dielectric[] = {STRETCH_FIELD(iridescent_dielectric, glass.stretch),
+						     ETA_FIELD(iridescent_dielectric, glass.eta, glass.inv_eta),
+						     FILM_FIELD(iridescent_dielectric)};
 
 #define LINEAR_FIELD(lobe, map)                                                                                        \
 	FIELD(lobe, map.xx, -1), FIELD(lobe, map.xy, -1), FIELD(lobe, map.yx, -1), FIELD(lobe, map.yy, -1),            \
@@ -275,17 +343,11 @@ static unsigned poisoned, shaded;
 static void poison(const test_case *c, const field *f, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
-		/* inv_eta serves below the surface alone, eta above: half of the directions do not read it, so a field
-		 * has to be sound everywhere and 0 where it is used; eta and inv_eta are spoilt together, as make
-		 * would. */
 		static const float values[] = {NAN, INFINITY, -INFINITY};
 		for (size_t k = 0; k < 3; k++) {
 			lobe_bsdf b = c->bsdf;
 			memcpy((char *)&b.as + f[i].offset, &values[k], sizeof values[k]);
-			if (c->kind == LOBE_KIND_GGX_DIELECTRIC &&
-			    (f[i].offset == offsetof(lobe_ggx_dielectric, eta) ||
-			     f[i].offset == offsetof(lobe_ggx_dielectric, inv_eta)))
-				b.as.ggx_dielectric.eta = b.as.ggx_dielectric.inv_eta = values[k];
+			memcpy((char *)&b.as + f[i].with, &values[k], sizeof values[k]);
 			double sum = 0.0;
 			for (int channel = 0; channel < 3; channel++)
 				if (f[i].channel < 0 || f[i].channel == channel)
@@ -293,7 +355,7 @@ static void poison(const test_case *c, const field *f, size_t n)
 			poisoned++;
 			/* An infinite width or norm may come out as one that is merely wrong; a NaN must shade to
 			 * nothing, and so must an infinite colour or index. Both must stay sound. */
-			const int must_be_zero = isnan(values[k]) || i >= 5 || c->alpha_x <= 0.0;
+			const int must_be_zero = isnan(values[k]) || !f[i].is_width;
 			if (isinf(sum) || (must_be_zero && sum != 0.0)) {
 				shaded++;
 				printf("  %s: %s = %g gives %g, expected 0\n", c->name, f[i].name, (double)values[k],
@@ -338,6 +400,22 @@ static void test_arguments_that_are_no_numbers(void)
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, nan, 1.5f)),
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, nan)),
 		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.5f, 0.5f, INFINITY)),
+		lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(nan, 0.5f, n, n)),
+		lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(0.5f, 0.5f, lobe_rgb_make(nan, nan, nan), n)),
+		lobe_bsdf_from_ggx_schlick(lobe_ggx_schlick_make(0.5f, 0.5f, n, lobe_rgb_make(nan, nan, nan))),
+		lobe_bsdf_from_mirror(lobe_mirror_make(lobe_rgb_make(nan, nan, nan))),
+		lobe_bsdf_from_smooth_conductor(lobe_smooth_conductor_make(lobe_rgb_make(nan, nan, nan), k)),
+		lobe_bsdf_from_smooth_conductor(lobe_smooth_conductor_make(n, lobe_rgb_make(nan, nan, nan))),
+		lobe_bsdf_from_smooth_dielectric(lobe_smooth_dielectric_make(nan)),
+		lobe_bsdf_from_smooth_dielectric(lobe_smooth_dielectric_make(INFINITY)),
+		lobe_bsdf_from_thin_dielectric(lobe_thin_dielectric_make(nan)),
+		lobe_bsdf_from_thin_dielectric(lobe_thin_dielectric_make(INFINITY)),
+		lobe_bsdf_from_iridescent_conductor(lobe_iridescent_conductor_make(0.5f, 0.5f, nan, 1.5f, n, k)),
+		lobe_bsdf_from_iridescent_conductor(lobe_iridescent_conductor_make(0.5f, 0.5f, 300.0f, nan, n, k)),
+		lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.5f, 0.5f, nan, 1.3f, 1.5f)),
+		lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.5f, 0.5f, INFINITY, 1.3f, 1.5f)),
+		lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.5f, 0.5f, 300.0f, nan, 1.5f)),
+		lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.5f, 0.5f, 300.0f, 1.3f, nan)),
 	};
 	unsigned not_zero = 0;
 	for (size_t i = 0; i < sizeof b / sizeof *b; i++)
@@ -356,6 +434,7 @@ int main(void)
 	RUN_TEST(test_random_samples_from_awkward_directions);
 	RUN_TEST(test_awkward_pairs);
 	RUN_TEST(test_ends_of_the_parameters);
+	RUN_TEST(test_ends_of_the_fresnel_parameters);
 	RUN_TEST(test_sampled_directions_stay_unit);
 	RUN_TEST(test_nothing_where_nothing_should_be);
 	RUN_TEST(test_no_lobe_shades_to_nothing);

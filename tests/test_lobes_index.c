@@ -23,7 +23,9 @@ static void test_index_1_passes_light_straight_through(void)
 	unsigned long n = 0;
 	for (size_t i = 0; i < case_count(); i++) {
 		const test_case *c = case_at(i);
-		if (!(c->flags & CASE_TRANSMITS) || c->eta != 1.0)
+		/* A pane has the same medium on both sides whatever it is made of. */
+		const int is_pane = c->kind == LOBE_KIND_THIN_DIELECTRIC && c->parameter[0] != 1.0;
+		if (!(c->flags & CASE_TRANSMITS) || c->eta != 1.0 || is_pane)
 			continue;
 		for (size_t k = 0; k < case_wo_count(c); k++)
 			for (uint32_t j = 0; j < 5000u; j++, n++) {

@@ -50,6 +50,99 @@ static double conductor_condition(const test_case *c, double cosine)
 	return worst;
 }
 
+/* Schlick's curve: a sum that cancels where it falls, and a power of 1 - c. */
+static double schlick_condition(const test_case *c, double cosine)
+{
+	double worst = 0.0;
+	const double m = fmax(1.0 - cosine, U), w = pow(m, 5.0);
+	for (int k = 0; k < 3; k++) {
+		const double f0 = c->parameter[2 + k], span = c->parameter[5 + k] - f0, f = f0 + span * w;
+		if (f > 0.0)
+			worst = fmax(worst, (f0 + fabs(span) * w * (6.0 + 10.0 / m)) / f);
+	}
+	return worst;
+}
+
+/* A thin film's R and 1 - R are means and differences of waves: what is off by a rounding of the phase is off by so much
+ * of the whole, not of what is left. */
+static double iridescent_conductor_condition(const test_case *c, double cosine)
+{
+	const lobe_iridescent_conductor p = c->bsdf.as.iridescent_conductor;
+	const lobe_rgb f = lobe_thin_film_conductor_rgb((float)cosine, p.film, p.eta, p.k);
+	return (8.0 + case_film_condition(c)) / fmax(fmin((double)f.r, (double)f.b), 1e-30);
+}
+
+static double iridescent_dielectric_condition(const test_case *c, double cosine, double e, int transmits)
+{
+	const lobe_iridescent_dielectric p = c->bsdf.as.iridescent_dielectric;
+	const double cos_t = sqrt(fmax(0.0, 1.0 - (1.0 - cosine * cosine) / (e * e)));
+	const lobe_film_fresnel f = lobe_thin_film_dielectric_rgb((float)(e < 1.0 ? cos_t : cosine), p.film,
+								  (float)fmax(e, 1.0 / e));
+	const lobe_rgb share = transmits ? f.transmittance : f.reflectance;
+	return (8.0 + case_film_condition(c)) / fmax(fmin((double)share.r, (double)share.b), 1e-30);
+}
+
+static double opaque_condition(const test_case *c, double cosine)
+{
+	if (c->kind == LOBE_KIND_MICROFACET_CONDUCTOR &&
+	    c->bsdf.as.microfacet_conductor.fresnel.model != LOBE_FRESNEL_EXACT)
+		return 1.0; /* sums of positive terms */
+	return c->kind == LOBE_KIND_GGX_SCHLICK            ? schlick_condition(c, cosine)
+	       : c->kind == LOBE_KIND_IRIDESCENT_CONDUCTOR ? iridescent_conductor_condition(c, cosine)
+							   : conductor_condition(c, cosine);
+}
+
+static const lobe_microsurface *surface_of(const test_case *c)
+{
+	switch (c->kind) {
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		return &c->bsdf.as.microfacet_conductor.surface;
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		return &c->bsdf.as.microfacet_dielectric.surface;
+	default:
+		return NULL;
+	}
+}
+
+/* A linear map's own cancellations: H on the surface of width 1, of whose squared length D is the power -2, and the area
+ * of the mean plane, z - mean.w, as each direction sees it; and the logarithm of the beta function, whose error comes
+ * with it. undecided: which face of the mean plane is seen hangs on the last bits. */
+static double surface_condition(const lobe_microsurface *s, const double o[3], const double i[3], const double h[3],
+				int *undecided)
+{
+	const lobe_linear *m = &s->map;
+	const double up = h[2] < 0.0 ? -1.0 : 1.0, hz = up * h[2];
+	const double x = up * h[0] + (double)m->mean_x * hz, y = up * h[1] + (double)m->mean_y * hz;
+	const double big_x = fabs(h[0]) + fabs((double)m->mean_x) * hz, big_y = fabs(h[1]) + fabs((double)m->mean_y) * hz;
+	const double fx = (double)m->ixx * x + (double)m->ixy * y, fy = (double)m->iyx * x + (double)m->iyy * y;
+	const double big_fx = fabs((double)m->ixx) * big_x + fabs((double)m->ixy) * big_y;
+	const double big_fy = fabs((double)m->iyx) * big_x + fabs((double)m->iyy) * big_y;
+	double sum = 4.0 * ((fabs(fx) * big_fx + fabs(fy) * big_fy + hz * hz) / (fx * fx + fy * fy + hz * hz) - 1.0);
+	double log_beta = 0.0, gammas = 0.0;
+	const double *const w[2] = {o, i};
+	for (int k = 0; k < 2; k++) {
+		const double a = (double)m->mean_x * w[k][0], b = (double)m->mean_y * w[k][1];
+		const double z = fabs(w[k][2] - a - b), size = fabs(w[k][2]) + fabs(a) + fabs(b);
+		const double vx = (double)m->xx * w[k][0] + (double)m->yx * w[k][1];
+		const double vy = (double)m->xy * w[k][0] + (double)m->yy * w[k][1];
+		const double one_plus_lambda = 0.5 * (sqrt(vx * vx + vy * vy + z * z) / z + 1.0);
+		*undecided |= z < 8.0 * U * size;
+		sum += size / z - 1.0;
+		log_beta += lgamma(one_plus_lambda);
+		gammas += one_plus_lambda;
+	}
+	/* What both see of a cavity's side: G1(o) + G1(i) - 1. */
+	const double g_o = fmin(1.0, 2.0 * hz * fabs(o[2]) / fabs(textbook_dot(o, h)));
+	const double g_i = fmin(1.0, 2.0 * hz * fabs(i[2]) / fabs(textbook_dot(i, h)));
+	if (s->masking == LOBE_MASKING_VCAVITY && o[2] * i[2] < 0.0) {
+		sum += 2.0 / fabs(g_o + g_i - 1.0);
+		*undecided |= fabs(g_o + g_i - 1.0) < 64.0 * U;
+	}
+	if (s->across == LOBE_ACROSS_BETA && o[2] * i[2] < 0.0)
+		sum += 8.0 * fabs(log_beta - lgamma(gammas)) + gammas;
+	return sum;
+}
+
 /* inexact: how far the directions themselves are off, in u (0 where both sides get the same ones). */
 static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_f, double inexact)
 {
@@ -72,8 +165,9 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 	const double oh = fabs(textbook_dot(o, h)), ih = fabs(textbook_dot(i, h));
 	const double q = h[0] * h[0] / ax2 + h[1] * h[1] / ay2 + h[2] * h[2];
 	const double slope = sqrt(h[0] * h[0] / (ax2 * ax2) + h[1] * h[1] / (ay2 * ay2) + h[2] * h[2]) / q;
+	const double mapped = surface_of(c) ? surface_condition(surface_of(c), o, i, h, &r.undecided) : 0.0;
 	if (!(c->flags & CASE_TRANSMITS)) {
-		r.fresnel = conductor_condition(c, fmin(0.5 * size, 1.0));
+		r.fresnel = mapped + opaque_condition(c, fmin(0.5 * size, 1.0));
 		r.input = inexact * (4.0 * slope + 4.0 / size);
 		return r;
 	}
@@ -86,8 +180,11 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 		cosine * cosine * (1.0 + dots) + fabs(e_view * e_view - 1.0) + (o[2] < 0.0 ? e_view * e_view : 0.0);
 	/* transmittance goes with g, reflectance with 1 - 4 g/c. */
 	const double tir = e_view < 1.0 ? (transmits ? g2_off / fabs(g2) : g2_off / sqrt(fabs(g2)) / cosine) : 0.0;
-	r.undecided = e_view < 1.0 && fabs(g2) < 4.0 * U * (g2_off + inexact);
-	r.fresnel = dots + tir;
+	r.undecided |= e_view < 1.0 && fabs(g2) < 4.0 * U * (g2_off + inexact);
+	r.fresnel = dots + tir + mapped;
+	if (c->kind == LOBE_KIND_IRIDESCENT_DIELECTRIC)
+		r.fresnel = iridescent_dielectric_condition(c, fmin(cosine, 1.0), e_view, transmits) *
+			    (1.0 + dots + (e_view < 1.0 ? g2_off / fabs(g2) : 0.0));
 	/* 1/eta is rounded, eta is not: from below H = o + i/eta inherits it, and e - 1 too. */
 	if (o[2] < 0.0)
 		r.index =
@@ -212,7 +309,7 @@ static void test_rough_glass_against_walter(void)
 		const lobe_real up = 1.05f + 1.95f * u[2], eta = j & 1u ? up : 1.0f / up;
 		const lobe_vec3 wo = lobe_vec3_make(a[0], a[1], a[2]), wi = lobe_vec3_make(b[0], b[1], b[2]);
 		test_case c = {
-			"random glass", LOBE_KIND_GGX_DIELECTRIC, {0}, {0}, CASE_TWO_SIDED | CASE_TRANSMITS, 0, 0, 0};
+			"random glass", LOBE_KIND_GGX_DIELECTRIC, {0}, {0}, CASE_TWO_SIDED | CASE_TRANSMITS, 0, 0, 0, 0};
 		c.alpha_x = c.parameter[0] = (double)ax;
 		c.alpha_y = c.parameter[1] = (double)ay;
 		c.eta = c.parameter[2] = (double)eta;
@@ -278,7 +375,7 @@ static void test_rough_metal_against_the_textbook(void)
 		const lobe_rgb eta = lobe_metal_eta(j % LOBE_METAL_COUNT), kappa = lobe_metal_k(j % LOBE_METAL_COUNT);
 		const lobe_vec3 wo = lobe_vec3_make(a[0], a[1], fabsf(a[2])),
 				wi = lobe_vec3_make(b[0], b[1], fabsf(b[2]));
-		test_case c = {"random metal", LOBE_KIND_GGX_CONDUCTOR, {0}, {0}, 0, 0, 0, 0};
+		test_case c = {"random metal", LOBE_KIND_GGX_CONDUCTOR, {0}, {0}, 0, 0, 0, 0, 0};
 		c.alpha_x = c.parameter[0] = (double)ax;
 		c.alpha_y = c.parameter[1] = (double)ay;
 		c.parameter[2] = (double)eta.r;

@@ -86,7 +86,8 @@ listed() {
 		grep -Eq "^LOBE_X(_TABLED)?\($upper, $name, [0-9]*\)" include/lobe/lobes/lobes.def &&
 			grep -q "\"$name.h\"" include/lobe/lobes/lobes.h &&
 			grep -q "define LOBE_HAS_$upper LOBE_HAS_DEFAULT" include/lobe/config.h &&
-			grep -q "define LOBE_HAS_ALL .*LOBE_HAS_$upper" include/lobe/config.h || {
+			sed -e ':a' -e '/\\$/N; s/\\\n//; ta' include/lobe/config.h |
+			grep -q "define LOBE_HAS_ALL .*LOBE_HAS_$upper\>" || {
 			echo "$name is not listed everywhere"
 			return 1
 		}

@@ -1,7 +1,7 @@
 /* tool_vectors.c - writes the known-answer vectors, one file per lobe: `make vectors`. Their format:
  *
  *	case NAME
- *	make ARGUMENTS                          of the lobe's make function, in order
+ *	make ARGUMENTS                          of the lobe's make function, in order; what is left out is 0
  *	eval   WO WI   F PDF                    3 + 3 numbers in, 3 + 1 out
  *	sample WO U    WI WEIGHT PDF EVENT      3 + 3 in, 3 + 3 + 1 and a whole number out
  *
@@ -12,7 +12,16 @@
 #include "cases.h"
 #include "inputs.h"
 
-enum { PER_CASE = 6 };
+enum { PER_CASE = 6, ARGUMENTS = 8 };
+
+/* How many of a case's parameters are written: ARGUMENTS, or as many as it has. */
+static int arguments(const test_case *c)
+{
+	int n = CASE_PARAMETERS;
+	while (n > ARGUMENTS && c->parameter[n - 1] == 0.0)
+		n--;
+	return n;
+}
 
 static void put(FILE *file, const float *x, int count)
 {
@@ -23,7 +32,7 @@ static void put(FILE *file, const float *x, int count)
 static void write_case(FILE *file, const test_case *c, inputs in, size_t first)
 {
 	fprintf(file, "case %s\nmake", c->name);
-	for (int i = 0; i < CASE_PARAMETERS; i++)
+	for (int i = 0; i < arguments(c); i++)
 		fprintf(file, " %a", c->parameter[i]);
 	fputc('\n', file);
 	for (size_t i = first; i < first + PER_CASE; i++) {

@@ -6,6 +6,7 @@
 
 #include "shading.h"
 #include "batch.h"
+#include "profile_table.h"
 #include "optics_names.h"
 
 #endif

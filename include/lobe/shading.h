@@ -10,8 +10,13 @@
 #include "core/frame.h"
 #include "core/warp.h"
 #include "core/fresnel.h"
+#include "core/fresnel_schlick.h"
+#include "core/fresnel_artist.h"
+#include "core/airy.h"
+#include "core/thin_film.h"
 #include "core/optics.h"
 #include "microfacet/ggx.h"
+#include "microfacet/distribution.h"
 #include "bsdf.h"
 
 #endif

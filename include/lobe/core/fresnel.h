@@ -13,47 +13,64 @@ typedef struct {
 	lobe_real reflectance, transmittance, cos_t, bend;
 } lobe_fresnel;
 
-/* Exact dielectric Fresnel. Domain: eta in [1/1000, 1000].
+/* Amplitudes of a dielectric interface and what they are made of. c: at least 2^-40; g = eta cos_t, 0 at total
+ * reflection; k = (eta - 1)(eta + 1); a = 1/(c + g), b = 1/(eta^2 c + g); rs = -r_s, rp = r_p (Born and Wolf's signs). */
+typedef struct {
+	lobe_real c, g, k, eta2, a, b, rs, rp;
+	int total;
+} lobe_fresnel_amplitudes;
+
+/* Domain: eta in [1/1000, 1000].
  *
  * With g = eta cos_t, A = c + g, B = eta^2 c + g, k = (eta-1)(eta+1) = g^2 - c^2 the amplitudes (Born and Wolf, 1.5.2)
  *	r_s = (c - g)/A              = -k/A^2
  *	r_p = (eta^2 c - g)/B        = k (c g - sin^2)/(A B)
- * are free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle), and so is
+ * are free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle). g^2 is c^2 + k or,
+ * where that cancels, eta^2 - sin^2. */
+LOBE_FN lobe_fresnel_amplitudes lobe_fresnel_amplitudes_make(lobe_real c_in, lobe_real eta)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	lobe_fresnel_amplitudes f;
+	f.c = lobe_max(c_in, LOBE_R(0x1p-40));
+	f.k = (eta - one) * (eta + one);
+	f.eta2 = eta * eta;
+	const lobe_real s2 = (one - f.c) * (one + f.c);
+	const lobe_real g2_thin = lobe_fma(eta, eta, -s2);
+	const lobe_real g2_thick = lobe_fma(f.c, f.c, f.k);
+	const lobe_real g2 = f.eta2 < LOBE_R(0.5) ? g2_thin : g2_thick;
+	f.total = g2 <= zero;
+	f.g = lobe_sqrt(f.total ? zero : g2);
+	const lobe_real big_a = f.c + f.g;
+	const lobe_real big_b = lobe_fma(f.eta2, f.c, f.g);
+	const lobe_real inv = one / (big_a * big_b);
+	f.a = inv * big_b;
+	f.b = inv * big_a;
+	f.rs = f.k * f.a * f.a;
+	f.rp = f.k * lobe_fma(f.c, f.g, -s2) * f.a * f.b;
+	return f;
+}
+
+/* Exact dielectric Fresnel. Domain: eta in [1/1000, 1000]. Near total reflection
  *	1 - F = 2 g c (1/A^2 + eta^2/B^2)
- * near total reflection. g^2 is c^2 + k or, where that cancels, eta^2 - sin^2. eta = 1 is no interface: F = 0 even at
- * c = 0. Below 2^-40 c counts as 2^-40. A NaN eta gives NaN.
+ * does not cancel either. eta = 1 is no interface: F = 0 even at c = 0. Below 2^-40 c counts as 2^-40. A NaN eta gives
+ * NaN.
  *
  * Relative error, eta > 1: reflectance 9.3e-7, transmittance 4.4e-7, cos_t 1.4e-7; eta < 1, beyond what a rounding of
  * eta or c does near the edge of total reflection: 7.7e-7, 3.4e-7, 1.4e-7 (tests/test_fresnel.c, against MPFR). */
-LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c_in, lobe_real eta)
+LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
-	const lobe_real c = lobe_max(c_in, LOBE_R(0x1p-40));
-	const lobe_real k = (eta - one) * (eta + one);
-	const lobe_real eta2 = eta * eta;
-	const lobe_real s2 = (one - c) * (one + c);
-	const lobe_real g2_thin = lobe_fma(eta, eta, -s2);
-	const lobe_real g2_thick = lobe_fma(c, c, k);
-	const lobe_real g2 = eta2 < LOBE_R(0.5) ? g2_thin : g2_thick;
-	const int total = g2 <= zero;
-	const lobe_real g = lobe_sqrt(total ? zero : g2);
-	const lobe_real big_a = c + g;
-	const lobe_real big_b = lobe_fma(eta2, c, g);
-	const lobe_real inv = one / (big_a * big_b);
-	const lobe_real a = big_b * inv;
-	const lobe_real b = big_a * inv;
-	const lobe_real rs = k * a * a;
-	const lobe_real rp = k * lobe_fma(c, g, -s2) * a * b;
-	const lobe_real refl = LOBE_R(0.5) * lobe_fma(rs, rs, rp * rp);
-	const lobe_real trans = two * g * c * lobe_fma(a, a, eta2 * b * b);
+	const lobe_fresnel_amplitudes m = lobe_fresnel_amplitudes_make(c, eta);
+	const lobe_real refl = LOBE_R(0.5) * lobe_fma(m.rs, m.rs, m.rp * m.rp);
+	const lobe_real trans = two * m.g * m.c * lobe_fma(m.a, m.a, m.eta2 * m.b * m.b);
 	const lobe_real refl_at_most_1 = lobe_at_most(refl, one);
 	const lobe_real trans_at_most_1 = lobe_at_most(trans, one);
-	const lobe_real through = k == zero ? one : trans_at_most_1;
+	const lobe_real through = m.k == zero ? one : trans_at_most_1;
 	lobe_fresnel f;
-	f.reflectance = total ? one : refl_at_most_1;
-	f.transmittance = total ? zero : through;
-	f.cos_t = g / eta;
-	f.bend = k * a;
+	f.reflectance = m.total ? one : refl_at_most_1;
+	f.transmittance = m.total ? zero : through;
+	f.cos_t = m.g / eta;
+	f.bend = m.k * m.a;
 	return f;
 }
 
@@ -100,12 +117,31 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
 	return a;
 }
 
+/* The root A + iK of (n + ik)^2 - sin^2, K >= 0, by its larger part: what a metal makes of the cosine, as g is of a
+ * dielectric. t = n^2 - k^2 - s^2, q = A^2 + K^2, sum = q + |t|, nk2 = 2nk.
+ *
+ * A = sqrt((q + t)/2), but for a metal t < 0 and q + t cancels; then A = nk/K with K = sqrt((q - t)/2), which does not.
+ * big = max(A, K) is A where t >= 0. */
+typedef struct {
+	lobe_real t, q, sum, nk2, big;
+} lobe_fresnel_conductor_root;
+
+LOBE_FN lobe_fresnel_conductor_root lobe_fresnel_conductor_root_make(lobe_real s2, lobe_real n, lobe_real k)
+{
+	lobe_fresnel_conductor_root r;
+	r.nk2 = (n + n) * k;
+	r.t = (n - k) * (n + k) - s2;
+	r.q = lobe_sqrt(lobe_fma(r.t, r.t, r.nk2 * r.nk2));
+	r.sum = r.q + lobe_abs(r.t);
+	r.big = lobe_sqrt(LOBE_R(0.5) * r.sum);
+	return r;
+}
+
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
- * Let (A + iK)^2 = (n + ik)^2 - sin^2. The usual form (Born and Wolf, 14.2) needs 2Ac and A^2 + K^2 =: q, with
- * A = sqrt((q + t)/2), t = n^2 - k^2 - s^2. For a metal t < 0 and q + t cancels; then A = nk/K with K = sqrt((q - t)/2),
- * which does not. Multiplied through by B = max(A, K), both cases need one root and no division:
+ * The usual form (Born and Wolf, 14.2) needs 2Ac and q. Multiplied through by B = max(A, K), both cases of the root need
+ * one root and no division:
  *	F_s = N/D,  N, D = (q + c^2) B -+ X c,        X = q + t if t >= 0, else 2nk
  *	F = F_s E/(E + X c s^2),                      E = (q c^2 + s^4) B
  * where the second line is (F_s + F_p)/2. Error 3.1e-7 relative for real metals, 3.1e-7 absolute over the domain, but
@@ -118,15 +154,11 @@ typedef struct {
 
 LOBE_FN lobe_fresnel_conductor_terms lobe_fresnel_conductor_terms_make(lobe_fresnel_angle a, lobe_real n, lobe_real k)
 {
-	const lobe_real nk2 = (n + n) * k;
-	const lobe_real t = (n - k) * (n + k) - a.s2;
-	const lobe_real q = lobe_sqrt(lobe_fma(t, t, nk2 * nk2));
-	const lobe_real sum = q + lobe_abs(t);
-	const lobe_real b = lobe_sqrt(LOBE_R(0.5) * sum);
+	const lobe_fresnel_conductor_root r = lobe_fresnel_conductor_root_make(a.s2, n, k);
 	lobe_fresnel_conductor_terms f;
-	f.xc = (t >= LOBE_R(0.0) ? sum : nk2) * a.c;
-	f.p = (q + a.c2) * b;
-	f.e = lobe_fma(q, a.c2, a.s4) * b;
+	f.xc = (r.t >= LOBE_R(0.0) ? r.sum : r.nk2) * a.c;
+	f.p = (r.q + a.c2) * r.big;
+	f.e = lobe_fma(r.q, a.c2, a.s4) * r.big;
 	f.scale = lobe_fma(f.xc, a.s2, f.e);
 	return f;
 }
@@ -163,21 +195,6 @@ LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle a, lobe_rgb n,
 LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
 {
 	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_make(c), n, k);
-}
-
-/* Schlick 1994: f0 + (1 - f0)(1 - c)^5. f0: reflectance at normal incidence, in [0, 1]. From the exact dielectric the
- * largest distance is .060 at index 1.33 and .036 at 1.5. From the dense side use the transmitted cosine as c. */
-LOBE_FN lobe_real lobe_fresnel_schlick(lobe_real c, lobe_real f0)
-{
-	const lobe_real m = LOBE_R(1.0) - c;
-	const lobe_real m2 = m * m;
-	return lobe_fma(LOBE_R(1.0) - f0, m2 * m2 * m, f0);
-}
-
-LOBE_FN lobe_rgb lobe_fresnel_schlick_rgb(lobe_real c, lobe_rgb f0)
-{
-	return lobe_rgb_make(lobe_fresnel_schlick(c, f0.r), lobe_fresnel_schlick(c, f0.g),
-			     lobe_fresnel_schlick(c, f0.b));
 }
 
 #endif

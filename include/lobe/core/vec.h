@@ -59,6 +59,8 @@ LOBE_FN lobe_rgb lobe_rgb_make(lobe_real r, lobe_real g, lobe_real b)
 
 LOBE_FN lobe_rgb lobe_rgb_scale(lobe_rgb c, lobe_real s) { return lobe_rgb_make(c.r * s, c.g * s, c.b * s); }
 
+LOBE_FN lobe_real lobe_rgb_mean(lobe_rgb c) { return (c.r + c.g + c.b) * LOBE_R(0.333333333333333333); }
+
 /* c where ok, else 0. */
 LOBE_FN lobe_rgb lobe_rgb_select(int ok, lobe_rgb c)
 {

@@ -12,6 +12,10 @@
 #include "facet.h"
 #include "shape.h"
 #include "ggx.h"
+#include "gtr.h"
+#include "phong.h"
+#include "student_t.h"
+#include "tabulated.h"
 
 /* The surface of a distribution without a shape of its own: LOBE_NDF_GGX, LOBE_NDF_BECKMANN. */
 LOBE_FN lobe_distribution lobe_distribution_make(lobe_uint ndf)

@@ -86,12 +86,13 @@ LOBE_FN lobe_real lobe_masking_one_plus_lambda(lobe_seen d)
 	return lobe_clamp((d.z + d.hides) / d.z, LOBE_R(1.0), LOBE_R(0x1p60));
 }
 
-/* i on the other side. G2/z_o with z_o as the visible area over 1 + Lambda_o. */
+/* i on the other side. G2/z_o with z_o as the visible area over 1 + Lambda_o. From the back of the mean plane, whose limit
+ * BETA's 0 is, the tops of the facets are seen, and nothing comes through there. */
 LOBE_FN lobe_real lobe_masking_smith_across(lobe_uint across, lobe_seen o, lobe_seen i)
 {
 	const lobe_real sum_o = o.z + o.hides;
 	const lobe_real a = lobe_masking_one_plus_lambda(o), b = lobe_masking_one_plus_lambda(i);
-	const lobe_real exact = lobe_beta(a, b) * a / sum_o;
+	const lobe_real exact = o.z > LOBE_R(0.0) ? lobe_beta(a, b) * a / sum_o : LOBE_R(0.0);
 	return across == LOBE_ACROSS_BETA ? exact : i.z / (sum_o * (i.z + i.hides));
 }
 

@@ -57,7 +57,10 @@ LOBE_FN lobe_real lobe_linear_narrow(lobe_linear m)
 }
 
 /* The width that the distribution has before the map, as a GGX surface would have it. */
-LOBE_FN lobe_real lobe_distribution_like_ggx(lobe_distribution d) { return d.width; }
+LOBE_FN lobe_real lobe_distribution_like_ggx(lobe_distribution d)
+{
+	return d.ndf == LOBE_NDF_PHONG ? lobe_phong_alpha(d.exponent) : d.width;
+}
 
 /* Smith's masking, height-correlated on one side and separable across. */
 LOBE_FN lobe_microsurface lobe_microsurface_make(lobe_distribution distribution, lobe_linear map)

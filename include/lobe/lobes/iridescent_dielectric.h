@@ -1,0 +1,130 @@
+/* iridescent_dielectric.h - rough glass under a thin film: coated lenses, oil on water; with eta = 1 a soap film.
+ *
+ * The microsurface, both events and both sides are those of microfacet/dielectric.h, with GGX; the share that a facet
+ * reflects is that of the film in RGB (core/thin_film.h: Belcour and Barla 2017), and the rest passes, bent by the base
+ * alone. Which of the two a sample is, the mean of the share over the channels decides; its weight carries the colour, so
+ * one channel of it can be up to 3 while the mean of the three is at most 1. At thickness 0 it is ggx_dielectric to
+ * rounding. A film does not turn light, so with eta = 1 what passes is a delta event, straight on. */
+#ifndef LOBE_LOBES_IRIDESCENT_DIELECTRIC_H
+#define LOBE_LOBES_IRIDESCENT_DIELECTRIC_H
+
+#include "../core/thin_film.h"
+#include "../microfacet/dielectric.h"
+
+/* glass: the surface without its film. film: as seen from the medium of lower index, into which there is no total
+ * reflection: thickness [nm] times that index, film's index over it, in [1, 1e6]. */
+typedef struct {
+	lobe_rough_dielectric glass;
+	lobe_film film;
+} lobe_iridescent_dielectric;
+
+/* Clamps alpha_x and alpha_y to [LOBE_ALPHA_MIN, 1]. thickness: [nm], in [0, 1e6]. film_index and eta: film and inside
+ * over the outside, in [1/1000, 1000]; film_index >= min(1, eta), as light would not get across a film that is rarer than
+ * both sides. Carries radiance; see lobe_iridescent_dielectric_transport. */
+LOBE_FN lobe_iridescent_dielectric lobe_iridescent_dielectric_make(lobe_real alpha_x, lobe_real alpha_y,
+								   lobe_real thickness, lobe_real film_index,
+								   lobe_real eta)
+{
+	const lobe_real one = LOBE_R(1.0);
+	const lobe_real thinner = lobe_at_most(eta, one);
+	lobe_iridescent_dielectric p;
+	p.glass = lobe_rough_dielectric_make(alpha_x, alpha_y, eta);
+	p.film = lobe_film_make(thickness * thinner, film_index / thinner);
+	return p;
+}
+
+/* The same surface for LOBE_TRANSPORT_RADIANCE or LOBE_TRANSPORT_IMPORTANCE (core/event.h). */
+LOBE_FN lobe_iridescent_dielectric lobe_iridescent_dielectric_transport(lobe_iridescent_dielectric p,
+									lobe_uint transport)
+{
+	p.glass = lobe_rough_dielectric_transport(p.glass, transport);
+	return p;
+}
+
+/* What a facet does to light at cosine c; fr: what it does without the film. The film is looked at from the thinner
+ * medium: at total reflection from within the cosine there is 0, where everything is reflected. */
+LOBE_FN lobe_film_fresnel lobe_iridescent_dielectric_film(lobe_iridescent_dielectric p, lobe_rough_dielectric_view v,
+							  lobe_real c, lobe_fresnel fr)
+{
+	const int inside = v.e < LOBE_R(1.0);
+	return lobe_thin_film_dielectric_rgb(inside ? fr.cos_t : c, p.film, inside ? v.inv_e : v.e);
+}
+
+/* The share of an event and its mean. */
+typedef struct {
+	lobe_rgb rgb;
+	lobe_real mean;
+} lobe_iridescent_share;
+
+LOBE_FN lobe_iridescent_share lobe_iridescent_share_make(lobe_film_fresnel f, int reflects)
+{
+	lobe_iridescent_share s;
+	s.rgb = lobe_rgb_make(reflects ? f.reflectance.r : f.transmittance.r,
+			      reflects ? f.reflectance.g : f.transmittance.g,
+			      reflects ? f.reflectance.b : f.transmittance.b);
+	s.mean = reflects ? f.mean_reflectance : f.mean_transmittance;
+	return s;
+}
+
+LOBE_FN lobe_iridescent_share lobe_iridescent_dielectric_share(lobe_iridescent_dielectric p,
+							       lobe_rough_dielectric_view v,
+							       lobe_rough_dielectric_facet m)
+{
+	const lobe_fresnel fr = lobe_fresnel_dielectric(m.c, v.e);
+	return lobe_iridescent_share_make(lobe_iridescent_dielectric_film(p, v, m.c, fr), m.reflects);
+}
+
+/* f |cos theta_i| [1/sr] */
+LOBE_FN lobe_rgb lobe_iridescent_dielectric_eval(lobe_iridescent_dielectric p, lobe_vec3 wo, lobe_vec3 wi)
+{
+	const lobe_uint ndf = LOBE_NDF_GGX;
+	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p.glass, wo);
+	const lobe_vec3 i = lobe_rough_dielectric_flip(wo, wi);
+	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p.glass, v, i);
+	const lobe_iridescent_share s = lobe_iridescent_dielectric_share(p, v, m);
+	const lobe_real g = lobe_rough_dielectric_g2_over_cos(ndf, p.glass, v, i, m.reflects);
+	return lobe_rgb_make(lobe_rough_dielectric_eval_at(v, m, s.rgb.r, g),
+			     lobe_rough_dielectric_eval_at(v, m, s.rgb.g, g),
+			     lobe_rough_dielectric_eval_at(v, m, s.rgb.b, g));
+}
+
+/* [1/sr] */
+LOBE_FN lobe_real lobe_iridescent_dielectric_pdf(lobe_iridescent_dielectric p, lobe_vec3 wo, lobe_vec3 wi)
+{
+	const lobe_uint ndf = LOBE_NDF_GGX;
+	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p.glass, wo);
+	const lobe_vec3 i = lobe_rough_dielectric_flip(wo, wi);
+	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p.glass, v, i);
+	return lobe_rough_dielectric_pdf_at(v, m, lobe_iridescent_dielectric_share(p, v, m).mean);
+}
+
+/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the
+ * light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is the mean transmittance of the sampled facet. */
+LOBE_FN lobe_sample lobe_iridescent_dielectric_sample(lobe_iridescent_dielectric p, lobe_vec3 wo, lobe_vec3 u)
+{
+	const lobe_uint ndf = LOBE_NDF_GGX;
+	const int delta = p.glass.delta != 0u;
+	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p.glass, wo);
+	const lobe_rough_dielectric_choice s = lobe_rough_dielectric_choose(ndf, p.glass, v, u);
+	const lobe_film_fresnel f = lobe_iridescent_dielectric_film(p, v, s.c, s.fr);
+	const int reflects = u.z < f.mean_reflectance;
+	const lobe_rough_dielectric_exit x = lobe_rough_dielectric_leave(v, s, reflects);
+	const lobe_vec3 wi = lobe_rough_dielectric_flip(wo, x.i);
+	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p.glass, v, x.i);
+	/* The facet as eval and pdf find it again; there is none for a delta event, which keeps the sampled one's share. */
+	const lobe_iridescent_share found = lobe_iridescent_dielectric_share(p, v, m);
+	const lobe_iridescent_share chosen = lobe_iridescent_share_make(f, reflects);
+	const lobe_real density = lobe_rough_dielectric_pdf_at(v, m, found.mean);
+	const int straight = delta & !reflects;
+	const lobe_real pdf = straight ? chosen.mean : density;
+	const lobe_real w = lobe_rough_dielectric_weight(ndf, p.glass, v, x.i, reflects);
+	const lobe_real per_mean = w / (straight ? chosen.mean : found.mean);
+	const lobe_rgb colour = lobe_rgb_make(straight ? chosen.rgb.r : found.rgb.r,
+					      straight ? chosen.rgb.g : found.rgb.g,
+					      straight ? chosen.rgb.b : found.rgb.b);
+	return lobe_sample_select(lobe_min(x.right_side, pdf) > LOBE_R(0.0), wi,
+				  lobe_rgb_finite_or_zero(lobe_rgb_scale(colour, per_mean)), pdf,
+				  lobe_rough_dielectric_event(p.glass, reflects));
+}
+
+#endif
