@@ -102,7 +102,7 @@ static lobe_bsdf material_iridescent_dielectric(void)
 #endif
 
 /* What ggx_conductor and ggx_dielectric do, chosen at run time. */
-#if LOBE_HAS_MICROFACET_CONDUCTOR || LOBE_HAS_MICROFACET_DIELECTRIC
+#if LOBE_HAS_MICROFACET_CONDUCTOR || LOBE_HAS_MICROFACET_DIELECTRIC || LOBE_HAS_MICROFACET_DIFFUSE
 static lobe_microsurface microsurface(void)
 {
 	return lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX),
@@ -124,6 +124,14 @@ static lobe_bsdf material_microfacet_dielectric(void)
 {
 	return lobe_bsdf_from_microfacet_dielectric(lobe_microfacet_dielectric_make(
 		microsurface(), lobe_fresnel_model_dielectric(), 1.5f, LOBE_STRATEGY_VISIBLE));
+}
+#endif
+
+#if LOBE_HAS_MICROFACET_DIFFUSE
+static lobe_bsdf material_microfacet_diffuse(void)
+{
+	return lobe_bsdf_from_microfacet_diffuse(
+		lobe_microfacet_diffuse_make(microsurface(), lobe_rgb_make(0.8f, 0.5f, 0.2f)));
 }
 #endif
 

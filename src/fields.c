@@ -111,6 +111,9 @@ static const field fields_microfacet_dielectric[] = {
 	UINT(microfacet_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
 	UINT(microfacet_dielectric, delta, 1)};
 
+static const field fields_microfacet_diffuse[] = {MICROSURFACE(microfacet_diffuse),
+						  RGB(microfacet_diffuse, reflectance, 0, 1)};
+
 static const struct {
 	uint32_t kind;
 	const field *fields;

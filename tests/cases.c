@@ -225,6 +225,13 @@ static const recipe microfacet_dielectric_recipes[] = {
 	 {0.5, 0.5, GLASS(1, RADIANCE, 0), GGX, MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE_ELLIPSOID, EXACT)}},
 };
 
+static const recipe microfacet_diffuse_recipes[] = {
+	{"clay .5", {0.5, 0.5, 0.8, 0.5, 0.3, 0, 0, 0, GGX, MASKING(SMITH, HEIGHT, SEPARABLE)}},
+	{"plaster tilted .3:.6", {0.3, 0.6, 1, 1, 1, 0, 0, 0, GGX_TILTED, MASKING(SMITH, SEPARABLE, SEPARABLE)}},
+	{"cavities 1", {1, 1, 1, 0.5, 0, 0, 0, 0, GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE)}},
+	{"smooth .0001", {1e-4, 1e-4, 1, 1, 1, 0, 0, 0, GGX, MASKING(SMITH, HEIGHT, SEPARABLE)}},
+};
+
 static void describe_lambert(test_case *c) { c->flags = CASE_TWO_SIDED | CASE_RECIPROCAL; }
 
 static void describe_rough_conductor(test_case *c, textbook_ndf ndf)
@@ -321,6 +328,10 @@ static void describe_microfacet_dielectric(test_case *c)
 	c->eta = c->parameter[2];
 	c->flags |= CASE_TWO_SIDED | CASE_TRANSMITS | (p.delta != 0u ? CASE_DELTA : 0u);
 }
+
+/* No width: what it reflects is spread over the hemisphere, however narrow the facets. Reciprocal but for what the fixed
+ * set of facets is off by. */
+static void describe_microfacet_diffuse(test_case *c) { c->flags = CASE_HEAVY; }
 
 #define MAX_CASES 256
 static test_case cases[MAX_CASES];

@@ -113,6 +113,12 @@ static lobe_microfacet_dielectric make_microfacet_dielectric(const double *p)
 		(lobe_uint)p[3]);
 }
 
+/* alpha_x, alpha_y, r, g, b, and as above but for strategy and Fresnel model */
+static lobe_microfacet_diffuse make_microfacet_diffuse(const double *p)
+{
+	return lobe_microfacet_diffuse_make(make_microsurface(p), make_rgb(p + 2));
+}
+
 static lobe_bsdf make_bsdf(uint32_t kind, const double *p)
 {
 	lobe_bsdf none;

@@ -328,13 +328,17 @@ static const field fields_iridescent_dielectric[] = {STRETCH_FIELD(iridescent_di
 #define MICROSURFACE_FIELD(lobe)                                                                                       \
 	LINEAR_FIELD(lobe, surface.map), FIELD(lobe, surface.distribution.exponent, -1),                               \
 		FIELD(lobe, surface.distribution.width, -1), FIELD(lobe, surface.distribution.norm, -1),               \
-		FIELD(lobe, surface.like, -1), FIELD(lobe, surface.alpha, -1), FIELD(lobe, surface.narrow, -1),        \
-		RGB_FIELD(lobe, fresnel.a), RGB_FIELD(lobe, fresnel.b), FIELD(lobe, fresnel.c, -1),                    \
-		FIELD(lobe, fresnel.d, -1)
-static const field fields_microfacet_conductor[] = {MICROSURFACE_FIELD(microfacet_conductor)};
+		FIELD(lobe, surface.like, -1), FIELD(lobe, surface.alpha, -1), FIELD(lobe, surface.narrow, -1)
+#define FRESNEL_FIELD(lobe)                                                                                            \
+	RGB_FIELD(lobe, fresnel.a), RGB_FIELD(lobe, fresnel.b), FIELD(lobe, fresnel.c, -1), FIELD(lobe, fresnel.d, -1)
+static const field fields_microfacet_conductor[] = {MICROSURFACE_FIELD(microfacet_conductor),
+						    FRESNEL_FIELD(microfacet_conductor)};
 static const field fields_microfacet_dielectric[] = {MICROSURFACE_FIELD(microfacet_dielectric),
+						     FRESNEL_FIELD(microfacet_dielectric),
 						     FIELD(microfacet_dielectric, eta, -1),
 						     FIELD(microfacet_dielectric, inv_eta, -1)};
+static const field fields_microfacet_diffuse[] = {MICROSURFACE_FIELD(microfacet_diffuse),
+						  RGB_FIELD(microfacet_diffuse, reflectance)};
 
 static const field fields_beckmann_conductor[] = {STRETCH_FIELD(beckmann_conductor, stretch),
 						  RGB_FIELD(beckmann_conductor, eta), RGB_FIELD(beckmann_conductor, k)};

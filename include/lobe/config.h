@@ -58,6 +58,9 @@
 #ifndef LOBE_HAS_MICROFACET_DIELECTRIC
 #define LOBE_HAS_MICROFACET_DIELECTRIC LOBE_HAS_DEFAULT
 #endif
+#ifndef LOBE_HAS_MICROFACET_DIFFUSE
+#define LOBE_HAS_MICROFACET_DIFFUSE LOBE_HAS_DEFAULT
+#endif
 
 /* The distributions of microfacet normals that those lobes need. */
 #ifndef LOBE_HAS_NDF_GGX
@@ -72,9 +75,9 @@
 /* The linked library has every lobe; its lobe_bsdf is a union over them all. */
 #define LOBE_HAS_ALL                                                                                                   \
 	(LOBE_HAS_LAMBERT && LOBE_HAS_GGX_CONDUCTOR && LOBE_HAS_GGX_DIELECTRIC && LOBE_HAS_BECKMANN_CONDUCTOR &&       \
-	 LOBE_HAS_BECKMANN_DIELECTRIC && LOBE_HAS_GGX_SCHLICK &&                                                       \
-	 LOBE_HAS_MIRROR && LOBE_HAS_SMOOTH_CONDUCTOR && LOBE_HAS_SMOOTH_DIELECTRIC && LOBE_HAS_THIN_DIELECTRIC &&      \
-	 LOBE_HAS_IRIDESCENT_CONDUCTOR && LOBE_HAS_IRIDESCENT_DIELECTRIC &&                                                     \
-	 LOBE_HAS_MICROFACET_CONDUCTOR && LOBE_HAS_MICROFACET_DIELECTRIC)
+	 LOBE_HAS_BECKMANN_DIELECTRIC && LOBE_HAS_GGX_SCHLICK && LOBE_HAS_MIRROR && LOBE_HAS_SMOOTH_CONDUCTOR &&       \
+	 LOBE_HAS_SMOOTH_DIELECTRIC && LOBE_HAS_THIN_DIELECTRIC && LOBE_HAS_IRIDESCENT_CONDUCTOR &&                    \
+	 LOBE_HAS_IRIDESCENT_DIELECTRIC && LOBE_HAS_MICROFACET_CONDUCTOR && LOBE_HAS_MICROFACET_DIELECTRIC &&          \
+	 LOBE_HAS_MICROFACET_DIFFUSE)
 
 #endif

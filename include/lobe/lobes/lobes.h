@@ -46,5 +46,8 @@
 #if LOBE_HAS_MICROFACET_DIELECTRIC
 #include "microfacet_dielectric.h"
 #endif
+#if LOBE_HAS_MICROFACET_DIFFUSE
+#include "microfacet_diffuse.h"
+#endif
 
 #endif
