@@ -213,10 +213,19 @@ test-long:
 vectors: $(B)/tests/tool_vectors
 	$(B)/tests/tool_vectors tests/vectors
 
-THROUGHPUT := $(patsubst %,bench/%.c,throughput timing scenes inputs measure machine options build_time pruning targets)
-$(B)/bench/throughput: $(THROUGHPUT) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
+THROUGHPUT := $(filter-out bench/hand_rows.c bench/peak.c,$(wildcard bench/*.c))
+BENCH_LOOPS := $(foreach i,$(ISAS),$(B)/bench/hand_rows_$(i).o $(B)/bench/peak_$(i).o)
+define BENCH_RULE
+$(B)/bench/%_$(1).o: bench/%.c $(HEADERS) $(wildcard bench/*.h) | $(B)/bench
+	@echo "  cc    $$@"
+	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c $$< -o $$@
+endef
+$(foreach i,$(ISAS),$(eval $(call BENCH_RULE,$(i))))
+
+$(B)/bench/throughput: $(THROUGHPUT) $(BENCH_LOOPS) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
 	@echo "  link  $@"
-	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(THROUGHPUT) $(B)/liblobe.a -o $@ $(LIBS)
+	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) $(filter -DLOBE_X86,$(LIB_CFLAGS)) -Iinclude -Isrc $(THROUGHPUT) \
+		$(BENCH_LOOPS) $(B)/liblobe.a -o $@ $(LIBS)
 
 bench:
 	@./deps.sh all
