@@ -230,6 +230,8 @@ $(B)/bench/throughput: $(THROUGHPUT) $(BENCH_LOOPS) $(wildcard bench/*.h) $(B)/l
 bench:
 	@./deps.sh all
 	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/bench/throughput
+	+@$(MAKE) --no-print-directory $(JOBS) B=$(B)/no_opencl ROW_DIR=$(B)/obj LOBE_OPENCL=0 $(B)/no_opencl/liblobe.so
+	+@$(MAKE) --no-print-directory $(JOBS) B=$(B)/no_native LOBE_NATIVE=0 $(B)/no_native/liblobe.so
 	@$(B)/bench/throughput
 	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
 
@@ -270,7 +272,7 @@ help:
 		'make run        the demo on the native backend and on every OpenCL device' \
 		'make test       every test; the last line counts them' \
 		'make test-long  the slow sweeps too (an hour)' \
-		'make bench      throughput, build times, what pruning saves; out/bench/*.csv' \
+		'make bench      throughput, its ceilings and scaling, build times, what pruning saves; out/bench/*.csv' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \

@@ -30,7 +30,7 @@ static const char script[] =
 	"if (!best) exit 1; "
 	"for (i = from[best]; i <= to[best]; i++) { if (!index(line[i], reg)) continue; w = what[i]; "
 	"if (w ~ /^v?mov/) { if (line[i] ~ reg \"[0-9]+(,|$)\" && line[i] ~ /,[-x0-9a-f]*\\([^)]*\\)/ && "
-	"line[i] !~ /\\(%%rsp|\\(%%rbp/) stores++ } "
+	"line[i] !~ /\\(%%rsp|-0x[0-9a-f]+\\(%%rbp/) stores++ } "
 	"else if (w ~ /^v?div[ps]s/) d++; else if (w ~ /^v?sqrt[ps]s/) r++; else if (w ~ /^vf(n?)m(add|sub)/) { f++; a++ } "
 	"else if (w ~ /^v?(add|sub|mul|max|min)ps/) a++; else o++ } "
 	"turn = stores ? stores / outputs * lanes : lanes; "

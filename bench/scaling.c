@@ -83,7 +83,7 @@ int bench_scaling(int lobe, size_t runs, size_t most, const char *path)
 	static const int verbs[] = {BENCH_EVAL_PDF, BENCH_SAMPLE};
 	for (size_t v = 0; ok && v < sizeof verbs / sizeof *verbs; v++)
 		/* By fours, and by twos where threads begin to pay. */
-		for (size_t n = 1; ok && n <= most; n *= n >= 1024 && n < 131072 ? 2 : 4)
+		for (size_t n = 1; ok && n <= most; n *= n >= 1024 && n < 262144 ? 2 : 4)
 			ok = row(csv, teams, count, &a, lobe, verbs[v], n, runs);
 	if (csv && count > 0) {
 		for (int i = 0; i < count; i++) {
