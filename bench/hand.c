@@ -91,8 +91,10 @@ int bench_hand(size_t n, size_t runs, const char *path)
 	if (csv && !ok)
 		fprintf(stderr, "throughput: out of memory, or no native device\n");
 	if (ok) {
-		printf("\nggx_conductor on one thread, by the library and without it; x: against the loop over the header, which\n"
-		       "has the library's compiler options and gives the same bits. Intervals: 95 %% of the median.\n\n");
+		printf("\nggx_conductor on one thread, by the library and without it; x: against the loop over the "
+		       "header, which\n"
+		       "has the library's compiler options and gives the same bits. Intervals: 95 %% of the "
+		       "median.\n\n");
 		printf("%-9s %9s %-24s %9s %21s %7s %15s\n", "verb", "elements", "by", "M/s", "", "x", "");
 		fputs("verb,elements,by,runs,median_melements_per_s,low,high,ratio,ratio_low,ratio_high\n", csv);
 	}

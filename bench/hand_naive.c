@@ -62,8 +62,8 @@ void bench_naive_eval(const lobe_ggx_conductor *p, const lobe_batch *b)
 		const vec sum = {wo.x + wi.x, wo.y + wi.y, wo.z + wi.z};
 		const vec h = normalized(sum);
 		const float c = dot(wo, h);
-		const float f = distribution(h, ax, ay) /
-				(4.0f * wo.z * (1.0f + lambda(wo, ax, ay) + lambda(wi, ax, ay)));
+		const float f =
+			distribution(h, ax, ay) / (4.0f * wo.z * (1.0f + lambda(wo, ax, ay) + lambda(wi, ax, ay)));
 		b->f[0][i] = f * fresnel(c, p->eta.r, p->k.r);
 		b->f[1][i] = f * fresnel(c, p->eta.g, p->k.g);
 		b->f[2][i] = f * fresnel(c, p->eta.b, p->k.b);

@@ -28,8 +28,8 @@ static __attribute__((noinline)) void sample(const lobe_ggx_conductor given, siz
 					     const float *restrict oy, const float *restrict oz,
 					     const float *restrict ux, const float *restrict uy,
 					     const float *restrict uz, float *restrict x, float *restrict y,
-					     float *restrict z, float *restrict r, float *restrict g,
-					     float *restrict b, float *restrict pdf, uint32_t *restrict event)
+					     float *restrict z, float *restrict r, float *restrict g, float *restrict b,
+					     float *restrict pdf, uint32_t *restrict event)
 {
 	for (size_t i = 0; i < n; i++) {
 		const lobe_sample s = lobe_ggx_conductor_sample(given, lobe_vec3_make(ox[i], oy[i], oz[i]),

@@ -62,8 +62,8 @@ static int mixed_rows(FILE *csv, const bench_device *d, bench_arrays *a, uint32_
 		ok = bench_race(racer, 1 + BENCH_LOBES, runs);
 		if (!ok)
 			break;
-		printf("%-34s %-9s %-10s %9zu %9.1f %7.1f %%\n", "mixed, against its lobes alone", bench_verb_name(verbs[v]),
-		       d->label, materials, racer[0].rate.median, share(racer + 1));
+		printf("%-34s %-9s %-10s %9zu %9.1f %7.1f %%\n", "mixed, against its lobes alone",
+		       bench_verb_name(verbs[v]), d->label, materials, racer[0].rate.median, share(racer + 1));
 		fprintf(csv, "mixed,%s,%s,%zu,%zu,%.4f,%.4f\n", bench_verb_name(verbs[v]), d->label, n, materials,
 			racer[0].rate.median, share(racer + 1));
 	}
@@ -129,8 +129,8 @@ static int struct_rows(FILE *csv, const bench_device *d, int lobe, const bench_a
 		if (!ok)
 			break;
 		printf("%-34s %-9s %-10s %9zu %9.1f %7.1f %%\n",
-		       lobe == BENCH_LOBE_LAMBERT ? "structs, lambert" : "structs, ggx_conductor", bench_verb_name(verbs[v]),
-		       d->label, n, racer[1].rate.median, 100.0 * racer[1].ratio.median);
+		       lobe == BENCH_LOBE_LAMBERT ? "structs, lambert" : "structs, ggx_conductor",
+		       bench_verb_name(verbs[v]), d->label, n, racer[1].rate.median, 100.0 * racer[1].ratio.median);
 		fprintf(csv, "structs %s,%s,%s,%zu,1,%.4f,%.4f\n", bench_lobe_name(lobe), bench_verb_name(verbs[v]),
 			d->label, n, racer[1].rate.median, 100.0 * racer[1].ratio.median);
 	}
@@ -154,8 +154,10 @@ int bench_layout(const bench_device *devices, int count, size_t n, size_t runs, 
 	if (csv && !ok)
 		fprintf(stderr, "throughput: out of memory\n");
 	if (ok) {
-		printf("\nLayout: batches of %zu elements. mixed: random materials of every lobe, in percent of the mean of\n"
-		       "the lobes alone. structs: inputs and outputs in structs of %zu bytes, in percent of packed arrays; in\n"
+		printf("\nLayout: batches of %zu elements. mixed: random materials of every lobe, in percent of the "
+		       "mean of\n"
+		       "the lobes alone. structs: inputs and outputs in structs of %zu bytes, in percent of packed "
+		       "arrays; in\n"
 		       "memory, and in the cache (%zu elements).\n\n",
 		       n, sizeof *h, small);
 		printf("%-34s %-9s %-10s %9s %9s %9s\n", "what", "verb", "device", "materials", "M/s", "share");

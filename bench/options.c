@@ -10,7 +10,8 @@
 
 static const char help[] =
 	"usage: throughput [options]\n"
-	"Measures shading throughput, its ceilings and scaling, the build time of OpenCL programs and what leaving things\n"
+	"Measures shading throughput, its ceilings and scaling, the build time of OpenCL programs and what leaving "
+	"things\n"
 	"out saves.\n"
 	"  --lobe NAME     this lobe only\n"
 	"  --verb NAME     this verb only: eval, pdf, eval+pdf, sample, sample_wi (without weight and pdf)\n"
@@ -56,8 +57,8 @@ static int only(bench_options *o, const char *table)
 	const struct {
 		const char *name;
 		int *wanted;
-	} tables[] = {{"throughput", &o->throughput}, {"build", &o->build},       {"pruning", &o->pruning},
-		      {"scaling", &o->scaling},       {"layout", &o->layout},     {"hand", &o->hand},
+	} tables[] = {{"throughput", &o->throughput}, {"build", &o->build},   {"pruning", &o->pruning},
+		      {"scaling", &o->scaling},       {"layout", &o->layout}, {"hand", &o->hand},
 		      {"roofline", &o->roofline}};
 	int found = 0;
 	for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
@@ -101,7 +102,7 @@ static int set(bench_options *o, const char *option, const char *value)
 static int takes_value(const char *option)
 {
 	static const char *const options[] = {"--lobe", "--verb", "--device", "--threads", "--n",
-					     "--runs", "--only", "--csv",    "--json"};
+					      "--runs", "--only", "--csv",    "--json"};
 	for (size_t i = 0; i < sizeof options / sizeof *options; i++)
 		if (strcmp(option, options[i]) == 0)
 			return 1;

@@ -19,8 +19,7 @@ typedef float vector __attribute__((vector_size(4 * LANES)));
 enum { CHAINS = 10, ROUNDS = 20000 };
 
 #if defined(__AVX512F__)
-#define ROOT(x)                                                                                                        \
-	__asm__ volatile("vsqrtps %0, %0" : "+v"(x))
+#define ROOT(x)        __asm__ volatile("vsqrtps %0, %0" : "+v"(x))
 #define QUOTIENT(x, y) __asm__ volatile("vdivps %1, %0, %0" : "+v"(x) : "v"(y))
 #define PRODUCT(x, y)  __asm__ volatile("vmulps %1, %0, %0" : "+v"(x) : "v"(y))
 #elif defined(__AVX2__)
@@ -43,10 +42,20 @@ enum { CHAINS = 10, ROUNDS = 20000 };
 			y[k] = 1.0f;                                                                                   \
 		for (int c = 0; c < CHAINS; c++)                                                                       \
 			x[c] = y;                                                                                      \
-		vector a = x[0], b = x[1], d = x[2], e = x[3], f = x[4], g = x[5], h = x[6], i = x[7], j = x[8], l = x[9]; \
+		vector a = x[0], b = x[1], d = x[2], e = x[3], f = x[4], g = x[5], h = x[6], i = x[7], j = x[8],       \
+		       l = x[9];                                                                                       \
 		const double start = bench_now();                                                                      \
 		for (int r = 0; r < ROUNDS; r++) {                                                                     \
-			STEP(a); STEP(b); STEP(d); STEP(e); STEP(f); STEP(g); STEP(h); STEP(i); STEP(j); STEP(l);      \
+			STEP(a);                                                                                       \
+			STEP(b);                                                                                       \
+			STEP(d);                                                                                       \
+			STEP(e);                                                                                       \
+			STEP(f);                                                                                       \
+			STEP(g);                                                                                       \
+			STEP(h);                                                                                       \
+			STEP(i);                                                                                       \
+			STEP(j);                                                                                       \
+			STEP(l);                                                                                       \
 		}                                                                                                      \
 		return (bench_now() - start) / (ROUNDS * (double)CHAINS);                                              \
 	}

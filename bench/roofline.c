@@ -23,15 +23,18 @@ typedef struct {
 static const char script[] =
 	"objdump -d --no-show-raw-insn '%s' 2>/dev/null | awk -v name='%s' -v reg='%%%s' -v lanes=%d -v outputs=%d '"
 	"/^[0-9a-f]+ <.*>:$/ { inside = index($2, \"<\" name) == 1; next } "
-	"inside && NF > 1 { at = $1; sub(\":\", \"\", at); n++; address[n] = at; what[n] = $2; line[n] = $0; place[at] = n; "
+	"inside && NF > 1 { at = $1; sub(\":\", \"\", at); n++; address[n] = at; what[n] = $2; line[n] = $0; place[at] "
+	"= n; "
 	"if ($2 ~ /^j/ && ($3 in place)) { from[++loops] = place[$3]; to[loops] = n } } "
-	"END { for (l = 1; l <= loops; l++) { wide = 0; for (i = from[l]; i <= to[l]; i++) wide += index(line[i], reg) > 0; "
+	"END { for (l = 1; l <= loops; l++) { wide = 0; for (i = from[l]; i <= to[l]; i++) wide += index(line[i], reg) "
+	"> 0; "
 	"if (wide > most) { most = wide; best = l } } "
 	"if (!best) exit 1; "
 	"for (i = from[best]; i <= to[best]; i++) { if (!index(line[i], reg)) continue; w = what[i]; "
 	"if (w ~ /^v?mov/) { if (line[i] ~ reg \"[0-9]+(,|$)\" && line[i] ~ /,[-x0-9a-f]*\\([^)]*\\)/ && "
 	"line[i] !~ /\\(%%rsp|-0x[0-9a-f]+\\(%%rbp/) stores++ } "
-	"else if (w ~ /^v?div[ps]s/) d++; else if (w ~ /^v?sqrt[ps]s/) r++; else if (w ~ /^vf(n?)m(add|sub)/) { f++; a++ } "
+	"else if (w ~ /^v?div[ps]s/) d++; else if (w ~ /^v?sqrt[ps]s/) r++; else if (w ~ /^vf(n?)m(add|sub)/) { f++; "
+	"a++ } "
 	"else if (w ~ /^v?(add|sub|mul|max|min)ps/) a++; else o++ } "
 	"turn = stores ? stores / outputs * lanes : lanes; "
 	"printf \"%%g %%g %%g %%g %%g\\n\", a / turn, f / turn, d / turn, r / turn, o / turn }'";
@@ -46,8 +49,8 @@ static int count_operations(const char *objects, const char *isa, int lanes, int
 	snprintf(function, sizeof function, "%s_one_loop", rows[verb]);
 	snprintf(command, sizeof command, script, object, function, lanes == 16 ? "zmm" : (lanes == 8 ? "ymm" : "xmm"),
 		 lanes, outputs[verb]);
-	return bench_command(command, line, sizeof line) && sscanf(line, "%lf %lf %lf %lf %lf", &o->arithmetic, &o->fused,
-								    &o->divisions, &o->roots, &o->other) == 5;
+	return bench_command(command, line, sizeof line) &&
+	       sscanf(line, "%lf %lf %lf %lf %lf", &o->arithmetic, &o->fused, &o->divisions, &o->roots, &o->other) == 5;
 }
 
 /* --- rates -------------------------------------------------------------------------------------------------------- */
@@ -93,11 +96,11 @@ static int row(FILE *csv, const work *w, int lobe, int verb)
 	lobe_scene_destroy(large.scene);
 	if (!ok)
 		return 0;
-	const int known = w->peak.arithmetic > 0.0 &&
-			  count_operations(w->objects, w->isa, w->peak.lanes, lobe, verb, &o);
+	const int known =
+		w->peak.arithmetic > 0.0 && count_operations(w->objects, w->isa, w->peak.lanes, lobe, verb, &o);
 	/* Sums and products, and the rest, have pipes of their own; divisions and roots share one. */
-	const double arithmetic = o.arithmetic * w->peak.arithmetic * 1e6, divider = (o.divisions * w->peak.division +
-										       o.roots * w->peak.root) * 1e6;
+	const double arithmetic = o.arithmetic * w->peak.arithmetic * 1e6,
+		     divider = (o.divisions * w->peak.division + o.roots * w->peak.root) * 1e6;
 	const double flops = (o.arithmetic + o.fused + o.divisions + o.roots) * w->peak.lanes;
 	const double slower = arithmetic > divider ? arithmetic : divider;
 	printf("%-18s %-9s %5zu", bench_lobe_name(lobe), bench_verb_name(verb), bytes);
@@ -148,20 +151,25 @@ int bench_roofline(int lobe, size_t n, size_t runs, const char *objects, const c
 	w.runs = runs;
 	w.objects = objects;
 	w.copy = bench_copy_create(1, n * 4 * (6 + 8));
-	int ok = csv && w.copy && bench_arrays_create(&w.arrays, n) && lobe_device_open(&w.device, "native:1") == LOBE_OK;
+	int ok = csv && w.copy && bench_arrays_create(&w.arrays, n) &&
+		 lobe_device_open(&w.device, "native:1") == LOBE_OK;
 	if (csv && !ok)
 		fprintf(stderr, "throughput: out of memory, or no native device\n");
 	if (ok) {
 		find_peak(&w);
-		printf("\nCeilings, one thread (%s). An element's bytes, its operations (a fused one counts as two), and, by vector of\n"
-		       "%d, divisions, square roots and other instructions (comparisons, selections, integers); measured rate\n"
-		       "from memory with its 95 %% interval, in percent of a copy; in the cache (%d elements) and there in percent\n"
-		       "of what the divider and what sums and products alone would allow: %.2f ns for a vector of quotients, %.2f\n"
+		printf("\nCeilings, one thread (%s). An element's bytes, its operations (a fused one counts as two), "
+		       "and, by vector of\n"
+		       "%d, divisions, square roots and other instructions (comparisons, selections, integers); "
+		       "measured rate\n"
+		       "from memory with its 95 %% interval, in percent of a copy; in the cache (%d elements) and "
+		       "there in percent\n"
+		       "of what the divider and what sums and products alone would allow: %.2f ns for a vector of "
+		       "quotients, %.2f\n"
 		       "of roots, %.2f of products.\n\n",
 		       lobe_device_name(w.device), w.peak.lanes, IN_CACHE, w.peak.division * 1e9, w.peak.root * 1e9,
 		       w.peak.arithmetic * 1e9);
-		printf("%-18s %-9s %5s %6s %5s %5s %6s %8s %15s %6s %8s %6s %6s\n", "lobe", "verb", "bytes", "flop", "div",
-		       "root", "other", "M/s", "", "copy %", "in cache", "div %", "sum %");
+		printf("%-18s %-9s %5s %6s %5s %5s %6s %8s %15s %6s %8s %6s %6s\n", "lobe", "verb", "bytes", "flop",
+		       "div", "root", "other", "M/s", "", "copy %", "in cache", "div %", "sum %");
 		fputs("lobe,verb,bytes,flops,divisions,roots,other,melements_per_s,low,high,copy_share,"
 		      "in_cache_melements_per_s,copy_gbytes_per_s,divider_melements_per_s,peak_gflops\n",
 		      csv);

@@ -41,7 +41,8 @@ static int open_teams(team *teams, int lobe)
 	return count + open_team(&teams[count], "opencl", lobe);
 }
 
-static int row(FILE *csv, const team *teams, int count, const bench_arrays *a, int lobe, int verb, size_t n, size_t runs)
+static int row(FILE *csv, const team *teams, int count, const bench_arrays *a, int lobe, int verb, size_t n,
+	       size_t runs)
 {
 	bench_shading shading[TEAMS_MAX];
 	bench_racer racer[TEAMS_MAX];
@@ -72,13 +73,15 @@ int bench_scaling(int lobe, size_t runs, size_t most, const char *path)
 	if (csv && !ok)
 		fprintf(stderr, "throughput: out of memory or devices for %zu elements\n", most);
 	if (ok) {
-		printf("\nScaling: %s, batches of 1 to %zu elements; M/s, and times the first device in the same rounds.\n\n",
+		printf("\nScaling: %s, batches of 1 to %zu elements; M/s, and times the first device in the same "
+		       "rounds.\n\n",
 		       bench_lobe_name(lobe), most);
 		printf("%-9s %9s", "verb", "elements");
 		for (int i = 0; i < count; i++)
 			printf(" %9s %5s", teams[i].label, "x");
 		printf("\n");
-		fputs("lobe,verb,device,elements,runs,median_melements_per_s,low,high,ratio,ratio_low,ratio_high\n", csv);
+		fputs("lobe,verb,device,elements,runs,median_melements_per_s,low,high,ratio,ratio_low,ratio_high\n",
+		      csv);
 	}
 	static const int verbs[] = {BENCH_EVAL_PDF, BENCH_SAMPLE};
 	for (size_t v = 0; ok && v < sizeof verbs / sizeof *verbs; v++)

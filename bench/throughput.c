@@ -165,7 +165,8 @@ int main(int argc, char **argv)
 	if (o.layout && o.lobe < 0)
 		ok = ok && bench_layout(devices, count, plan.sizes[0], o.runs, layout_csv);
 	if (o.scaling && native)
-		ok = ok && bench_scaling(o.lobe < 0 ? BENCH_LOBE_GGX_CONDUCTOR : o.lobe, o.runs, scaling_most(&o), scaling_csv);
+		ok = ok && bench_scaling(o.lobe < 0 ? BENCH_LOBE_GGX_CONDUCTOR : o.lobe, o.runs, scaling_most(&o),
+					 scaling_csv);
 	if (o.build)
 		ok = ok && bench_build_times(argv[0], devices, count, o.lobe, o.quick ? 1 : 3, 25.0, build_csv);
 	if (o.pruning)
