@@ -221,10 +221,19 @@ test-long:
 vectors: $(B)/tests/tool_vectors
 	$(B)/tests/tool_vectors tests/vectors
 
-THROUGHPUT := $(patsubst %,bench/%.c,throughput timing scenes inputs measure machine options build_time pruning targets)
-$(B)/bench/throughput: $(THROUGHPUT) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
+THROUGHPUT := $(filter-out bench/strategies.c bench/hand_rows.c bench/peak.c,$(wildcard bench/*.c))
+BENCH_LOOPS := $(foreach i,$(ISAS),$(B)/bench/hand_rows_$(i).o $(B)/bench/peak_$(i).o)
+define BENCH_RULE
+$(B)/bench/%_$(1).o: bench/%.c $(HEADERS) $(wildcard bench/*.h) | $(B)/bench
+	@echo "  cc    $$@"
+	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c $$< -o $$@
+endef
+$(foreach i,$(ISAS),$(eval $(call BENCH_RULE,$(i))))
+
+$(B)/bench/throughput: $(THROUGHPUT) $(BENCH_LOOPS) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
 	@echo "  link  $@"
-	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(THROUGHPUT) $(B)/liblobe.a -o $@ $(LIBS)
+	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) $(filter -DLOBE_X86,$(LIB_CFLAGS)) -Iinclude -Isrc $(THROUGHPUT) \
+		$(BENCH_LOOPS) $(B)/liblobe.a -o $@ $(LIBS)
 
 $(B)/bench/strategies: bench/strategies.c bench/timing.c bench/timing.h $(B)/liblobe.a | $(B)/bench
 	@echo "  link  $@"
@@ -234,6 +243,8 @@ $(B)/bench/strategies: bench/strategies.c bench/timing.c bench/timing.h $(B)/lib
 bench:
 	@./deps.sh all
 	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/bench/throughput $(B)/bench/strategies
+	+@$(MAKE) --no-print-directory $(JOBS) B=$(B)/no_opencl ROW_DIR=$(B)/obj LOBE_OPENCL=0 $(B)/no_opencl/liblobe.so
+	+@$(MAKE) --no-print-directory $(JOBS) B=$(B)/no_native LOBE_NATIVE=0 $(B)/no_native/liblobe.so
 	@$(B)/bench/throughput
 	@$(B)/bench/strategies
 	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
@@ -275,7 +286,7 @@ help:
 		'make run        the demo on the native backend and on every OpenCL device' \
 		'make test       every test; the last line counts them' \
 		'make test-long  the slow sweeps too (an hour)' \
-		'make bench      throughput, build times, what pruning saves; out/bench/*.csv' \
+		'make bench      throughput, its ceilings and scaling, build times, what pruning saves; out/bench/*.csv' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \

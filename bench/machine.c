@@ -1,6 +1,7 @@
 /* machine.c - the head of a benchmark's output. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
@@ -46,6 +47,14 @@ static int find_line(const char *path, const char *key, char *value, size_t size
 	if (file)
 		fclose(file);
 	return found;
+}
+
+double bench_memory(void)
+{
+	char text[256];
+	if (find_line("/proc/meminfo", "MemAvailable", text, sizeof text))
+		return 1024.0 * strtod(text, NULL);
+	return (double)sysconf(_SC_PAGESIZE) * 65536.0;
 }
 
 void bench_print_machine(void)

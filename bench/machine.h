@@ -10,6 +10,9 @@
 /* Processor, compiler, date, commit, and how busy the machine already is. */
 void bench_print_machine(void);
 
+/* Bytes of memory that nobody uses. */
+double bench_memory(void);
+
 /* Runs a shell command and keeps the last line of its output, without the line's end. 0: it failed or wrote nothing. */
 int bench_command(const char *command, char *line, size_t size);
 

@@ -10,14 +10,18 @@
 
 static const char help[] =
 	"usage: throughput [options]\n"
-	"Measures shading throughput, the build time of OpenCL programs and what leaving things out saves.\n"
+	"Measures shading throughput, its ceilings and scaling, the build time of OpenCL programs and what leaving "
+	"things\n"
+	"out saves.\n"
 	"  --lobe NAME     this lobe only\n"
 	"  --verb NAME     this verb only: eval, pdf, eval+pdf, sample, sample_wi (without weight and pdf)\n"
 	"  --device NAME   this device only, e.g. native:1, native, opencl:0\n"
+	"  --threads N     the native device with so many threads only\n"
 	"  --n N           elements of a batch (default 4194304 and, in the column \"in cache\", 16384)\n"
 	"  --runs N        timed runs of each (default 11), 1 to 1000\n"
-	"  --only TABLE    this table only: throughput, build or pruning\n"
-	"  --csv FILE      instead of out/bench/throughput.csv; build_time.csv and pruning.csv lie beside it\n"
+	"  --only TABLE    this table only: throughput, roofline, hand, layout, scaling, build or pruning\n"
+	"  --csv FILE      instead of out/bench/throughput.csv; those of the other tables lie beside it\n"
+	"  --json FILE     the table of throughput as JSON as well, - for the standard output\n"
 	"  --quick         a look that is no measurement: 262144 elements, 3 runs\n"
 	"  --help          this\n";
 
@@ -50,10 +54,16 @@ static size_t number(const char *text, size_t most)
 
 static int only(bench_options *o, const char *table)
 {
-	o->throughput = strcmp(table, "throughput") == 0;
-	o->build = strcmp(table, "build") == 0;
-	o->pruning = strcmp(table, "pruning") == 0;
-	return o->throughput || o->build || o->pruning;
+	const struct {
+		const char *name;
+		int *wanted;
+	} tables[] = {{"throughput", &o->throughput}, {"build", &o->build},   {"pruning", &o->pruning},
+		      {"scaling", &o->scaling},       {"layout", &o->layout}, {"hand", &o->hand},
+		      {"roofline", &o->roofline}};
+	int found = 0;
+	for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
+		found |= *tables[i].wanted = strcmp(table, tables[i].name) == 0;
+	return found;
 }
 
 /* An option that takes a value. */
@@ -73,7 +83,14 @@ static int set(bench_options *o, const char *option, const char *value)
 		o->runs = number(value, 1000);
 		wrong = o->runs == 0 ? "not a number from 1 to 1000" : NULL;
 	} else if (strcmp(option, "--only") == 0) {
-		wrong = only(o, value) ? NULL : "not throughput, build or pruning";
+		wrong = only(o, value) ? NULL : "no such table";
+	} else if (strcmp(option, "--threads") == 0) {
+		const size_t threads = number(value, 1024);
+		wrong = threads == 0 ? "not a number from 1 to 1024" : NULL;
+		snprintf(o->native, sizeof o->native, "native:%zu", threads);
+		o->device = o->native;
+	} else if (strcmp(option, "--json") == 0) {
+		o->json = value;
 	} else if (strcmp(option, "--device") == 0) {
 		o->device = value;
 	} else {
@@ -84,7 +101,8 @@ static int set(bench_options *o, const char *option, const char *value)
 
 static int takes_value(const char *option)
 {
-	static const char *const options[] = {"--lobe", "--verb", "--device", "--n", "--runs", "--only", "--csv"};
+	static const char *const options[] = {"--lobe", "--verb", "--device", "--threads", "--n",
+					      "--runs", "--only", "--csv",    "--json"};
 	for (size_t i = 0; i < sizeof options / sizeof *options; i++)
 		if (strcmp(option, options[i]) == 0)
 			return 1;
@@ -96,7 +114,7 @@ int bench_options_parse(bench_options *o, int argc, char **argv)
 	memset(o, 0, sizeof *o);
 	o->lobe = o->verb = -1;
 	o->csv = "out/bench/throughput.csv";
-	o->throughput = o->build = o->pruning = 1;
+	o->throughput = o->build = o->pruning = o->scaling = o->layout = o->hand = o->roofline = 1;
 	for (int i = 1; i < argc; i++) {
 		if (strcmp(argv[i], "--help") == 0) {
 			fputs(help, stdout);

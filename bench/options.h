@@ -10,7 +10,9 @@ typedef struct {
 	size_t n;           /* 0: the default, and the size in the cache as well */
 	size_t runs;
 	const char *csv;
-	int throughput, build, pruning; /* the tables */
+	const char *json;                                                /* NULL: none */
+	int throughput, build, pruning, scaling, layout, hand, roofline; /* the tables */
+	char native[32];                                                 /* device, where --threads gave it */
 	int quick;
 } bench_options;
 

@@ -1,5 +1,5 @@
-# plots.gp - pictures of out/bench/throughput.csv, and of build_time.csv where there are OpenCL devices. From the
-# repository's root, after make bench:
+# plots.gp - pictures of out/bench/throughput.csv, and of roofline.csv, scaling.csv and build_time.csv where they are. From
+# the repository's root, after make bench:
 #	gnuplot bench/plots.gp
 # DEVICE: one of the file's devices alone: gnuplot -e "DEVICE='opencl:0'" bench/plots.gp
 if (!exists("FOLDER")) FOLDER = "out/bench"
@@ -64,5 +64,57 @@ do for [device in DEVICES] {
 			builds(device) using 8 title "a second scene"
 		unset logscale y
 	}
+}
+
+# Operations against bytes: a loop cannot pass the slope of the memory, nor the line of fused sums and products; its own
+# divisions and roots hold it below a bar.
+ROOFLINE = FOLDER . "/roofline.csv"
+exists_file(path) = int(system(sprintf("test -s %s && echo 1 || echo 0", path)))
+if (exists_file(ROOFLINE)) {
+	reset
+	set datafile separator comma
+	set terminal pngcairo size 1200, 800 noenhanced font "sans,11"
+	largest(column) = system(sprintf("awk -F, 'NR > 1 && $%d > most { most = $%d } END { print most }' %s", column, column, ROOFLINE)) + 0
+	PEAK = largest(15)
+	BAND = largest(13)
+	set output FOLDER . "/roofline.png"
+	set title "operations and bytes of every loop, one thread"
+	set xlabel "operations for a byte"
+	set ylabel "thousand million operations per second"
+	set logscale xy
+	set xrange [0.05:20]
+	set yrange [0.5:2 * PEAK]
+	set grid
+	set key bottom right
+	points(select) = sprintf("< awk -F, 'NR > 1 && $4 > 0 && $2 == \"%s\"' %s", select, ROOFLINE)
+	plot (BAND * x < PEAK ? BAND * x : 1 / 0) title sprintf("a copy, %.0f GB/s", BAND) lw 2 lc rgb "gray30", \
+		(BAND * x >= PEAK ? PEAK : 1 / 0) title sprintf("fused sums and products, %.0f", PEAK) lw 2 lc rgb "gray60", \
+		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($8 * $4 / 1000) with points pt 7 ps 1.3 lc i title word(VERBS, i) . ", from memory", \
+		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($12 * $4 / 1000) with points pt 6 ps 1.3 lc i notitle, \
+		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($14 > 0 ? $14 * $4 / 1000 : 1 / 0) with points pt 2 ps 1 lc i notitle, \
+		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($8 * $4 / 1000):1 with labels left offset 1, 0 font "sans,8" notitle, \
+		1 / 0 with points pt 6 lc rgb "black" title "hollow: in the cache", \
+		1 / 0 with points pt 2 lc rgb "black" title "crosses: what the divider allows"
+}
+
+SCALING = FOLDER . "/scaling.csv"
+if (exists_file(SCALING)) {
+	reset
+	set datafile separator comma
+	set terminal pngcairo size 1100, 600 noenhanced font "sans,11"
+	distinct(column) = system(sprintf("awk -F, 'NR > 1 && !seen[$%d]++ { print $%d }' %s", column, column, SCALING))
+	TEAMS = distinct(3)
+	set logscale xy
+	set xlabel "elements of a batch"
+	set ylabel "million elements per second"
+	set grid
+	set key bottom right
+	set output FOLDER . "/scaling.png"
+	set title sprintf("batches of every size, %s", distinct(1))
+	curve(verb, team) = sprintf("< awk -F, '$2 == \"%s\" && $3 == \"%s\"' %s", verb, team, SCALING)
+	plot for [i = 1:words(TEAMS)] curve("eval+pdf", word(TEAMS, i)) using 4:6:7:8 with yerrorlines lc i lw 1.5 pt 7 ps 0.7 \
+			title "eval+pdf, " . word(TEAMS, i), \
+		for [i = 1:words(TEAMS)] curve("sample", word(TEAMS, i)) using 4:6:7:8 with yerrorlines lc i lw 1.5 dt 2 pt 6 ps 0.7 \
+			title "sample, " . word(TEAMS, i)
 }
 set output

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "pruning.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,6 +56,11 @@ static void put_library(FILE *csv, const char *folder)
 	}
 	put(csv, "of it the OpenCL source as text", "all lobes", text_size(folder, "liblobe.a", "opencl_source.o"), all,
 	    "bytes");
+	/* make bench builds these; the ratio is to the library with both. */
+	put(csv, "text of liblobe.so without OpenCL, LOBE_OPENCL=0", "all lobes",
+	    text_size(folder, "no_opencl/liblobe.so", ""), text_size(folder, "liblobe.so", ""), "bytes");
+	put(csv, "text of liblobe.so without native, LOBE_NATIVE=0", "all lobes",
+	    text_size(folder, "no_native/liblobe.so", ""), text_size(folder, "liblobe.so", ""), "bytes");
 }
 
 /* --- programs of a user ------------------------------------------------------------------------------------------- */
@@ -82,22 +88,30 @@ static const char batch_program[] = "#include \"lobe/lobe.h\"\n"
 				    "	return (int)lobe_device_open(&device, \"native\");\n"
 				    "}\n";
 
-/* Compiles source to folder/a.out, static and stripped, with the library when it is given. Bytes of the file, and of
- * the text of its object alone. */
-static int compile(const char *folder, const char *source, const char *library, double *file, double *text)
+static int write_source(const char *folder, const char *name, const char *source)
 {
-	char command[4096], path[2048], line[256];
-	const char *const cc = getenv("CC");
-	struct stat s;
-	snprintf(path, sizeof path, "%s/a.c", folder);
+	char path[2048];
+	snprintf(path, sizeof path, "%s/%s", folder, name);
 	FILE *out = fopen(path, "w");
 	if (!out)
 		return 0;
 	fputs(source, out);
-	fclose(out);
+	return fclose(out) == 0;
+}
+
+/* Compiles source, and more in a file of its own, to folder/a.out, static and stripped, with the library when it is given.
+ * Bytes of the file, and of the text of its object alone. */
+static int compile(const char *folder, const char *source, const char *more, const char *library, double *file,
+		   double *text)
+{
+	char command[4096], path[2048], line[256];
+	const char *const cc = getenv("CC");
+	struct stat s;
+	if (!write_source(folder, "a.c", source) || !write_source(folder, "b.c", more))
+		return 0;
 	snprintf(command, sizeof command,
-		 "cd '%s' && { %s -std=c99 -O2 -ffp-contract=off -I\"$OLDPWD/include\" -c a.c -o a.o && "
-		 "%s -static -s a.o %s%s%s -lm -ldl -lpthread -o a.out; } 2>/dev/null && echo built",
+		 "cd '%s' && { %s -std=c99 -O2 -ffp-contract=off -I\"$OLDPWD/include\" -c a.c b.c && "
+		 "%s -static -s a.o b.o %s%s%s -lm -ldl -lpthread -o a.out; } 2>/dev/null && echo built",
 		 folder, cc && *cc ? cc : "cc", cc && *cc ? cc : "cc", library ? "'" : "", library ? library : "",
 		 library ? "/liblobe.a'" : "");
 	if (!bench_command(command, line, sizeof line))
@@ -117,7 +131,7 @@ static void put_user(FILE *csv, const char *folder, const char *header, const ch
 	char source[2048];
 	double file = -1.0, text = -1.0;
 	snprintf(source, sizeof source, user_program, header, type, type, type, type, type);
-	compile(folder, source, NULL, &file, &text);
+	compile(folder, source, "typedef int nothing;\n", NULL, &file, &text);
 	put(csv, "text of a C user's object, its three verbs", subject, text, 0.0, "bytes");
 	put(csv, "  its executable, static and stripped", subject, file, empty, "bytes");
 }
@@ -130,7 +144,7 @@ static void put_programs(FILE *csv, const char *library)
 		puts("programs of a user: skipped (no ./include here)");
 		return;
 	}
-	compile(folder, "int main(void)\n{\n\treturn 0;\n}\n", NULL, &file, &text);
+	compile(folder, "int main(void)\n{\n\treturn 0;\n}\n", "typedef int nothing;\n", NULL, &file, &text);
 	if (file < 0.0)
 		puts("programs of a user: skipped (no compiler here, or it does not link static programs)");
 	else
@@ -146,8 +160,22 @@ static void put_programs(FILE *csv, const char *library)
 	snprintf(command, sizeof command, "cd '%s' && pwd", library);
 	if (file >= 0.0 && bench_command(command, absolute, sizeof absolute)) {
 		double whole = -1.0;
-		compile(folder, batch_program, absolute, &whole, &text);
+		compile(folder, batch_program, "typedef int nothing;\n", absolute, &whole, &text);
 		put(csv, "executable with the batch library, static and stripped", "all lobes", whole, file, "bytes");
+		for (int lobe = 0; lobe < BENCH_LOBES; lobe++) {
+			static const char list[] = "#define LOBE_HAS_DEFAULT 0\n#define LOBE_HAS_%s 1\n"
+						   "#include \"lobe/link.h\"\n";
+			char source[256], upper[64];
+			double one = -1.0;
+			size_t i = 0;
+			for (const char *c = bench_lobe_name(lobe); *c && i < sizeof upper - 1; c++)
+				upper[i++] = (char)toupper((unsigned char)*c);
+			upper[i] = '\0';
+			snprintf(source, sizeof source, list, upper);
+			compile(folder, batch_program, source, absolute, &one, &text);
+			put(csv, "  the same with a list of one lobe, lobe/link.h", bench_lobe_name(lobe), one, file,
+			    "bytes");
+		}
 	}
 	snprintf(command, sizeof command, "rm -r '%s' && echo removed", folder);
 	bench_command(command, absolute, sizeof absolute);

@@ -30,6 +30,21 @@ static double quantile(const double *sorted, size_t n, double q)
 	return sorted[low] + (at - (double)low) * (sorted[high] - sorted[low]);
 }
 
+/* How many of n sorted values lie beyond each end of the interval: the median is beyond values[r] when no more than r of
+ * n fair coins fall on that side. n at most 1000, where 2^-n is still a number. */
+static size_t outside(size_t n)
+{
+	double term = 1.0;
+	size_t r = 0;
+	for (size_t i = 0; i < n; i++)
+		term *= 0.5;
+	for (double sum = term; sum <= 0.025 && r < n / 2; sum += term) {
+		r++;
+		term *= (double)(n - r + 1) / (double)r;
+	}
+	return r ? r - 1 : 0;
+}
+
 bench_stats bench_stats_of(double *values, size_t n)
 {
 	bench_stats s;
@@ -39,10 +54,14 @@ bench_stats bench_stats_of(double *values, size_t n)
 	s.median = quantile(values, n, 0.5);
 	s.quarter3 = quantile(values, n, 0.75);
 	s.max = values[n - 1];
+	s.low = values[outside(n)];
+	s.high = values[n - 1 - outside(n)];
 	return s;
 }
 
 double bench_spread(const bench_stats *s) { return 100.0 * (s->quarter3 - s->quarter1) / s->median; }
+
+double bench_error(const bench_stats *s) { return 50.0 * (s->high - s->low) / s->median; }
 
 /* --- copy --------------------------------------------------------------------------------------------------------- */
 

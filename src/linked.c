@@ -2,9 +2,9 @@
  * that a linker takes a lobe's loops when lobe_linked lists them and not otherwise. */
 #include "rows.h"
 
-#define PASTE_(a, b)    a##b
-#define PASTE(a, b)     PASTE_(a, b)
-#define ROWS(isa)       PASTE(lobe_rows_##isa##_, LOBE_ROW)
+#define PASTE_(a, b) a##b
+#define PASTE(a, b)  PASTE_(a, b)
+#define ROWS(isa)    PASTE(lobe_rows_##isa##_, LOBE_ROW)
 
 /* LOBE_INDEX_* by the lobe's name. */
 enum {
@@ -18,10 +18,9 @@ extern const lobe_rows ROWS(baseline);
 extern const lobe_rows ROWS(avx2), ROWS(avx512);
 #endif
 
-const struct lobe_linked PASTE(lobe_linked_, LOBE_ROW) = {
-	PASTE(lobe_index_, LOBE_ROW),
-	{
+const struct lobe_linked PASTE(lobe_linked_, LOBE_ROW) = {PASTE(lobe_index_, LOBE_ROW),
+							  {
 #ifdef LOBE_X86
-		&ROWS(avx512), &ROWS(avx2),
+								  &ROWS(avx512), &ROWS(avx2),
 #endif
-		&ROWS(baseline)}};
+								  &ROWS(baseline)}};

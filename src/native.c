@@ -25,10 +25,9 @@ typedef struct {
 static void list_isas(isa *list)
 {
 #ifdef LOBE_X86
-	list[LOBE_ISA_AVX512] =
-		(isa){"avx512", &lobe_split_avx512,
-		      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-			      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")};
+	list[LOBE_ISA_AVX512] = (isa){"avx512", &lobe_split_avx512,
+				      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+					      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")};
 	list[LOBE_ISA_AVX2] =
 		(isa){"avx2", &lobe_split_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
 #endif
@@ -41,8 +40,8 @@ typedef struct {
 	const lobe_split *split;
 	size_t threads;
 	lobe_pool *pool;
-	lobe_native_scratch *scratch; /* [threads] */
-	pthread_mutex_t lock; /* one batch at a time */
+	lobe_native_scratch *scratch;                 /* [threads] */
+	pthread_mutex_t lock;                         /* one batch at a time */
 	double cost[LOBE_COUNT + 2][LOBE_VERB_COUNT]; /* nanoseconds of an element; LOBE_COUNT + 1: several lobes */
 } native_device;
 
@@ -64,10 +63,7 @@ static size_t chunk_size(const native_device *device, size_t count, double cost)
 
 /* What an element costs, learnt from what the first chunk of each batch took. Lobes differ by a factor of ten and
  * processors by more, so a number of elements would not do. A thread that was put aside in between counts little. */
-static void learn(double *cost, double took)
-{
-	*cost = *cost > took ? took : *cost + (took - *cost) / 8;
-}
+static void learn(double *cost, double took) { *cost = *cost > took ? took : *cost + (took - *cost) / 8; }
 
 static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 {
@@ -105,8 +101,8 @@ static void native_close(lobe_device *base)
 	free(device);
 }
 
-static const lobe_device_ops native_ops = {
-	native_close, native_scene_create, lobe_native_scene_destroy, native_run, NULL};
+static const lobe_device_ops native_ops = {native_close, native_scene_create, lobe_native_scene_destroy, native_run,
+					   NULL};
 
 /* The widest instruction set that runs here, or the one that LOBE_ISA names; its place in list, or -1 and a message. */
 static int choose_isa(const isa *list)

@@ -159,35 +159,39 @@ static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const 
 
 /* --- chunks ------------------------------------------------------------------------------------------------------ */
 
-/* Elements [first, first + n) of the job as packed arrays: where they are, or in the thread's own memory. */
-static block open_block(const lobe_job *job, lobe_native_scratch *s, size_t first, size_t n)
+/* Elements [first, first + n) of the job as packed arrays: where they are, or in the thread's own memory. unpack: the
+ * outputs that are to be brought where they belong. */
+static block open_block(const lobe_job *job, lobe_native_scratch *s, size_t first, size_t n, lobe_strided *unpack)
 {
 	block b = {n, NULL, {NULL}, {NULL}};
+	lobe_strided pack;
+	pack.count = unpack->count = 0;
 	for (int k = 0; k < LOBE_IN_COUNT; k++) {
-		const void *const at = word_at(job->in[k], job->in_stride[k], first);
-		if (job->in_stride[k] != 4)
-			lobe_gather(s->packed_in[k], at, job->in_stride[k], n);
-		b.in[k] = job->in_stride[k] != 4 ? s->packed_in[k] : at;
+		b.in[k] = word_at(job->in[k], job->in_stride[k], first);
+		if (job->in_stride[k] != 4) {
+			lobe_strided_add(&pack, s->packed_in[k], b.in[k], job->in_stride[k]);
+			b.in[k] = s->packed_in[k];
+		}
 	}
 	if (job->material) {
-		const void *const at = word_at(job->material, job->material_stride, first);
-		if (job->material_stride != 4)
-			lobe_gather(s->material, at, job->material_stride, n);
-		b.material = job->material_stride != 4 ? s->material : at;
+		b.material = word_at(job->material, job->material_stride, first);
+		if (job->material_stride != 4) {
+			lobe_strided_add(&pack, s->material, b.material, job->material_stride);
+			b.material = s->material;
+		}
 	}
-	for (int k = 0; k < LOBE_OUT_COUNT; k++)
-		if (job->out[k])
-			b.out[k] = job->out_stride[k] == 4 ? word_at(job->out[k], 4, first)
-							   : packed_room(s, k, lobe_verb_is_sample(job->verb));
+	for (int k = 0; k < LOBE_OUT_COUNT; k++) {
+		if (!job->out[k])
+			continue;
+		b.out[k] = word_at(job->out[k], job->out_stride[k], first);
+		if (job->out_stride[k] != 4) {
+			void *const packed = packed_room(s, k, lobe_verb_is_sample(job->verb));
+			lobe_strided_add(unpack, packed, b.out[k], job->out_stride[k]);
+			b.out[k] = packed;
+		}
+	}
+	lobe_pack(&pack, n);
 	return b;
-}
-
-/* Results that are not where they belong. */
-static void close_block(const lobe_job *job, const block *b, size_t first)
-{
-	for (int k = 0; k < LOBE_OUT_COUNT; k++)
-		if (job->out[k] && job->out_stride[k] != 4)
-			lobe_scatter(word_at(job->out[k], job->out_stride[k], first), job->out_stride[k], b->out[k], b->n);
 }
 
 static void shade_none(const lobe_job *job, const block *b)
@@ -222,14 +226,15 @@ static void shade_chunk(const lobe_native_job *j, lobe_native_scratch *s, size_t
 	const int whole = lobe_native_whole(j->scene, j->job);
 	const size_t step = block_size(j, whole);
 	for (size_t at = first; at < end; at += step) {
-		const block b = open_block(j->job, s, at, end - at < step ? end - at : step);
+		lobe_strided unpack;
+		const block b = open_block(j->job, s, at, end - at < step ? end - at : step, &unpack);
 		if (whole == LOBE_INDEX_NONE)
 			shade_none(j->job, &b);
 		else if (whole >= 0)
 			shade_one(j, s, whole, &b);
 		else
 			shade_mixed(j, s, &b);
-		close_block(j->job, &b, at);
+		lobe_unpack(&unpack, b.n);
 	}
 }
 
@@ -245,5 +250,6 @@ void lobe_native_chunk(void *context, size_t chunk, size_t thread)
 	clock_gettime(CLOCK_MONOTONIC, &start);
 	shade_chunk(j, &j->scratch[thread], first, first + n);
 	clock_gettime(CLOCK_MONOTONIC, &end);
-	j->nanoseconds = ((double)(end.tv_sec - start.tv_sec) * 1e9 + (double)(end.tv_nsec - start.tv_nsec)) / (double)n;
+	j->nanoseconds =
+		((double)(end.tv_sec - start.tv_sec) * 1e9 + (double)(end.tv_nsec - start.tv_nsec)) / (double)n;
 }

@@ -3,7 +3,8 @@
 
 static lobe_status without_opencl(const char *call)
 {
-	return lobe_fail(LOBE_ERROR_DEVICE, "%s: this library was built without the OpenCL backend (LOBE_OPENCL=0)", call);
+	return lobe_fail(LOBE_ERROR_DEVICE, "%s: this library was built without the OpenCL backend (LOBE_OPENCL=0)",
+			 call);
 }
 
 lobe_status lobe_opencl_count(size_t *count)

@@ -34,8 +34,8 @@ static lobe_status check_array(const array *a, size_t count, const char *call)
 				 vector, a->name, a->stride);
 	if (count > (UINTPTR_MAX - a->at) / a->stride)
 		return lobe_fail(LOBE_ERROR_ARGUMENT,
-				 "%s: batch->count is %zu, too many for memory from batch->%s on, %zu bytes apart", call,
-				 count, a->name, a->stride);
+				 "%s: batch->count is %zu, too many for memory from batch->%s on, %zu bytes apart",
+				 call, count, a->name, a->stride);
 	return LOBE_OK;
 }
 
@@ -79,6 +79,64 @@ lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call)
 
 /* --- packing ----------------------------------------------------------------------------------------------------- */
 
+typedef uint32_t __attribute__((may_alias)) word;
+#define WORD(array, stride, i) (*(word *)(void *)((unsigned char *)(array) + (stride) * (i)))
+
+/* Three arrays at a time, mostly the components of one vector: a third faster than one by one. */
+static void pack_3(word *restrict x, word *restrict y, word *restrict z, word *restrict fx, word *restrict fy,
+		   word *restrict fz, size_t stride, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		x[i] = WORD(fx, stride, i);
+		y[i] = WORD(fy, stride, i);
+		z[i] = WORD(fz, stride, i);
+	}
+}
+
+static void unpack_3(word *restrict tx, word *restrict ty, word *restrict tz, const word *restrict x,
+		     const word *restrict y, const word *restrict z, size_t stride, size_t n)
+{
+	for (size_t i = 0; i < n; i++) {
+		WORD(tx, stride, i) = x[i];
+		WORD(ty, stride, i) = y[i];
+		WORD(tz, stride, i) = z[i];
+	}
+}
+
+/* Whether arrays a to a + 2 are there and equally far apart. */
+static int three(const lobe_strided *s, int a)
+{
+	return a + 3 <= s->count && s->stride[a] == s->stride[a + 1] && s->stride[a] == s->stride[a + 2];
+}
+
+void lobe_pack(const lobe_strided *s, size_t n)
+{
+	for (int a = 0; a < s->count; a++) {
+		if (three(s, a)) {
+			pack_3(s->packed[a], s->packed[a + 1], s->packed[a + 2], s->apart[a], s->apart[a + 1],
+			       s->apart[a + 2], s->stride[a], n);
+			a += 2;
+			continue;
+		}
+		for (size_t i = 0; i < n; i++)
+			((word *)s->packed[a])[i] = WORD(s->apart[a], s->stride[a], i);
+	}
+}
+
+void lobe_unpack(const lobe_strided *s, size_t n)
+{
+	for (int a = 0; a < s->count; a++) {
+		if (three(s, a)) {
+			unpack_3(s->apart[a], s->apart[a + 1], s->apart[a + 2], s->packed[a], s->packed[a + 1],
+				 s->packed[a + 2], s->stride[a], n);
+			a += 2;
+			continue;
+		}
+		for (size_t i = 0; i < n; i++)
+			WORD(s->apart[a], s->stride[a], i) = ((const word *)s->packed[a])[i];
+	}
+}
+
 /* Elements packed at a time: enough to hide what a launch costs, few enough for the outer caches. */
 #ifndef LOBE_PACK_MAX
 #define LOBE_PACK_MAX ((size_t)1 << 17)
@@ -94,38 +152,46 @@ static int packed(const lobe_job *job)
 	return yes;
 }
 
-/* Elements [first, first + n) of an input: where they are, if packed, else packed into the buffer. */
-static const void *pack(const void *from, size_t *stride, size_t first, size_t n, unsigned char *buffer)
+static unsigned char *byte_at(const void *base, size_t stride, size_t i)
 {
-	const unsigned char *const begin = (const unsigned char *)from + first * *stride;
-	if (*stride == 4)
-		return begin;
-	lobe_gather(buffer, begin, *stride, n);
-	*stride = 4;
+	return (unsigned char *)(uintptr_t)base + stride * i;
+}
+
+/* Elements [first, first + n) of an input: where they are, if packed, else in the buffer, once pack is done. */
+static const void *packed_input(lobe_strided *pack, const void *from, size_t stride, size_t first,
+				unsigned char *buffer)
+{
+	const unsigned char *const at = byte_at(from, stride, first);
+	if (stride == 4)
+		return at;
+	lobe_strided_add(pack, buffer, at, stride);
 	return buffer;
 }
 
 static lobe_status run_part(lobe_scene *scene, const lobe_job *job, size_t first, size_t n, unsigned char *buffer)
 {
-	lobe_job part = *job;
-	part.count = n;
-	for (int i = 0; i < LOBE_IN_COUNT; i++, buffer += 4 * LOBE_PACK_MAX)
-		part.in[i] = pack(job->in[i], &part.in_stride[i], first, n, buffer);
+	lobe_job part = {.verb = job->verb, .count = n, .material_stride = 4};
+	lobe_strided pack = {0}, unpack = {0};
+	for (int i = 0; i < LOBE_IN_COUNT; i++, buffer += 4 * LOBE_PACK_MAX) {
+		part.in[i] = packed_input(&pack, job->in[i], job->in_stride[i], first, buffer);
+		part.in_stride[i] = 4;
+	}
 	if (job->material)
-		part.material = pack(job->material, &part.material_stride, first, n, buffer);
+		part.material = packed_input(&pack, job->material, job->material_stride, first, buffer);
 	buffer += 4 * LOBE_PACK_MAX;
-	for (int i = 0; i < LOBE_OUT_COUNT; i++) {
+	for (int i = 0; i < LOBE_OUT_COUNT; i++, buffer += 4 * LOBE_PACK_MAX) {
+		const size_t stride = job->out_stride[i];
+		part.out_stride[i] = 4;
 		if (!job->out[i])
 			continue;
-		part.out_stride[i] = 4;
-		part.out[i] = job->out_stride[i] == 4 ? (unsigned char *)job->out[i] + 4 * first
-						      : buffer + 4 * LOBE_PACK_MAX * (size_t)i;
+		part.out[i] = stride == 4 ? byte_at(job->out[i], 4, first) : buffer;
+		if (stride != 4)
+			lobe_strided_add(&unpack, buffer, byte_at(job->out[i], stride, first), stride);
 	}
+	lobe_pack(&pack, n);
 	const lobe_status status = scene->device->ops->run(scene, &part);
-	for (int i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++)
-		if (job->out[i] && job->out_stride[i] != 4 && lobe_verb_writes(job->verb, i))
-			lobe_scatter((unsigned char *)job->out[i] + first * job->out_stride[i], job->out_stride[i],
-				     part.out[i], n);
+	if (status == LOBE_OK)
+		lobe_unpack(&unpack, n);
 	return status;
 }
 

@@ -4,19 +4,25 @@
 
 #include "internal.h"
 
-/* to[i] = word i of an array. */
-static inline void lobe_gather(void *to, const void *from, size_t stride, size_t n)
+/* Arrays to be packed or unpacked, up to all that a batch has. */
+enum { LOBE_STRIDED_MAX = LOBE_IN_COUNT + LOBE_OUT_COUNT + 1 };
+typedef struct {
+	int count;
+	void *packed[LOBE_STRIDED_MAX];
+	void *apart[LOBE_STRIDED_MAX]; /* stride[a] bytes from word to word */
+	size_t stride[LOBE_STRIDED_MAX];
+} lobe_strided;
+
+static inline void lobe_strided_add(lobe_strided *s, void *packed, const void *apart, size_t stride)
 {
-	for (size_t i = 0; i < n; i++)
-		memcpy((unsigned char *)to + 4 * i, (const unsigned char *)from + stride * i, 4);
+	s->packed[s->count] = packed;
+	s->apart[s->count] = (void *)(uintptr_t)apart;
+	s->stride[s->count++] = stride;
 }
 
-/* Word i of an array = from[i]. */
-static inline void lobe_scatter(void *to, size_t stride, const void *from, size_t n)
-{
-	for (size_t i = 0; i < n; i++)
-		memcpy((unsigned char *)to + stride * i, (const unsigned char *)from + 4 * i, 4);
-}
+/* The first n words of each array. (strides.c) */
+void lobe_pack(const lobe_strided *s, size_t n);
+void lobe_unpack(const lobe_strided *s, size_t n);
 
 /* Alignment, strides and overlap of a job's arrays; LOBE_ERROR_ARGUMENT and a message that names the field. (strides.c) */
 lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call);

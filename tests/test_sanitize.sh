@@ -23,7 +23,7 @@ clean() {
 		UBSAN_OPTIONS=print_stacktrace=1 "$out/tests/$1"
 }
 
-for program in test_batch test_vectors test_opencl test_opencl_none test_opencl_faults test_core test_real test_warp test_fresnel \
+for program in test_batch test_strides test_vectors test_opencl test_opencl_none test_opencl_faults test_core test_real test_warp test_fresnel \
 	test_ggx test_linear test_slopes test_lobes_extremes; do
 	check "$program builds" sanitized $program
 	check "$program runs clean" clean $program
