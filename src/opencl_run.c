@@ -178,6 +178,8 @@ lobe_status lobe_cl_run(lobe_scene *scene, const lobe_job *job)
 		status = run_host(&b, job, first, count);
 		first += count;
 	}
+	if (status == LOBE_OK)
+		lobe_cl_binaries_update(device);
 	pthread_mutex_unlock(&device->lock);
 	return status;
 }

@@ -1,0 +1,104 @@
+/* opencl_binary.c - binaries of OpenCL programs, kept in the cache between runs. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cache.h"
+#include "opencl_device.h"
+
+enum { TEXT_SIZE = 1024 };
+
+/* Names and versions: a driver that changes one of them may have changed its compiler. *pocl: it is PoCL. */
+static int describe(const lobe_cl_device *device, char *out, size_t size, int *pocl)
+{
+	const lobe_cl_functions *const cl = device->cl;
+	cl_platform_id platform = NULL;
+	char text[5][TEXT_SIZE];
+	cl_int error;
+	memset(text, 0, sizeof text);
+	error = cl->clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
+	if (error == CL_SUCCESS)
+		error = cl->clGetPlatformInfo(platform, CL_PLATFORM_NAME, TEXT_SIZE, text[0], NULL);
+	if (error == CL_SUCCESS)
+		error = cl->clGetPlatformInfo(platform, CL_PLATFORM_VERSION, TEXT_SIZE, text[1], NULL);
+	if (error == CL_SUCCESS)
+		error = cl->clGetDeviceInfo(device->id, CL_DEVICE_NAME, TEXT_SIZE, text[2], NULL);
+	if (error == CL_SUCCESS)
+		error = cl->clGetDeviceInfo(device->id, CL_DEVICE_VERSION, TEXT_SIZE, text[3], NULL);
+	if (error == CL_SUCCESS)
+		error = cl->clGetDeviceInfo(device->id, CL_DRIVER_VERSION, TEXT_SIZE, text[4], NULL);
+	if (error != CL_SUCCESS)
+		return 0;
+	*pocl = strcmp(text[0], "Portable Computing Language") == 0;
+	snprintf(out, size, "platform %s, %s\ndevice %s, %s\ndriver %s\n", text[0], text[1], text[2], text[3], text[4]);
+	return 1;
+}
+
+/* PoCL compiles a kernel when it is launched, and all kernels of a program when it is asked for a binary, which takes
+ * three times as long as building the program: 1.4 s for the 15 kernels of a lobe, where most scenes launch one or two.
+ * It has a cache of its own, from which a second start takes 50 ms. So there ours serves only whoever asks for it, and
+ * then takes the binary again when kernels have been launched that it lacks, which costs little the second time. */
+char *lobe_cl_binary_key(const lobe_cl_device *device, const char *const source[3], const char *options, size_t *size,
+			 int *grows)
+{
+	char description[6 * TEXT_SIZE];
+	size_t length;
+	char *key;
+	if (!describe(device, description, sizeof description, grows) || (*grows && !lobe_cache_asked_for()))
+		return NULL;
+	length = strlen(description) + strlen("options \n") + strlen(options) + strlen(source[0]) + strlen(source[1]) +
+		 strlen(source[2]);
+	key = malloc(length + 1);
+	if (!key)
+		return NULL;
+	snprintf(key, length + 1, "%soptions %s\n%s%s%s", description, options, source[0], source[1], source[2]);
+	*size = length;
+	return key;
+}
+
+cl_program lobe_cl_binary_load(lobe_cl_device *device, const char *key, size_t key_size, const char *options)
+{
+	const lobe_cl_functions *const cl = device->cl;
+	cl_int error = CL_SUCCESS, taken = CL_SUCCESS;
+	size_t size = 0;
+	unsigned char *const binary = lobe_cache_get(key, key_size, &size);
+	const unsigned char *from = binary;
+	cl_program program;
+	if (!binary)
+		return NULL;
+	program = cl->clCreateProgramWithBinary(device->context, 1, &device->id, &size, &from, &taken, &error);
+	free(binary);
+	if (!program)
+		return NULL;
+	if (error == CL_SUCCESS && taken == CL_SUCCESS)
+		error = cl->clBuildProgram(program, 1, &device->id, options, NULL, NULL);
+	if (error == CL_SUCCESS && taken == CL_SUCCESS)
+		return program;
+	cl->clReleaseProgram(program);
+	return NULL;
+}
+
+void lobe_cl_binary_store(lobe_cl_device *device, cl_program program, const char *key, size_t key_size)
+{
+	const lobe_cl_functions *const cl = device->cl;
+	size_t size = 0;
+	unsigned char *binary;
+	if (cl->clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL) != CL_SUCCESS || size == 0)
+		return;
+	binary = malloc(size);
+	if (binary && cl->clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS)
+		lobe_cache_put(key, key_size, binary, size);
+	free(binary);
+}
+
+void lobe_cl_binaries_update(lobe_cl_device *device)
+{
+	lobe_cl_program *p;
+	for (p = device->programs; p; p = p->next) {
+		if (p->key && p->outgrown)
+			lobe_cl_binary_store(device, p->program, p->key, p->key_size);
+		p->outgrown = 0;
+	}
+}
