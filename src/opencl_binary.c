@@ -40,56 +40,58 @@ static int describe(const lobe_cl_device *device, char *out, size_t size, int *p
  * three times as long as building the program: 1.4 s for the 15 kernels of a lobe, where most scenes launch one or two.
  * It has a cache of its own, from which a second start takes 50 ms. So there ours serves only whoever asks for it, and
  * then takes the binary again when kernels have been launched that it lacks, which costs little the second time. */
-char *lobe_cl_binary_key(const lobe_cl_device *device, const char *const source[3], const char *options, size_t *size,
-			 int *grows)
+void lobe_cl_binary_find_key(const lobe_cl_device *device, lobe_cl_program *p, const char *const source[3])
 {
 	char description[6 * TEXT_SIZE];
 	size_t length;
-	char *key;
-	if (!describe(device, description, sizeof description, grows) || (*grows && !lobe_cache_asked_for()))
-		return NULL;
-	length = strlen(description) + strlen("options \n") + strlen(options) + strlen(source[0]) + strlen(source[1]) +
-		 strlen(source[2]);
-	key = malloc(length + 1);
-	if (!key)
-		return NULL;
-	snprintf(key, length + 1, "%soptions %s\n%s%s%s", description, options, source[0], source[1], source[2]);
-	*size = length;
-	return key;
+	if (!describe(device, description, sizeof description, &p->grows) || (p->grows && !lobe_cache_asked_for()))
+		return;
+	length = strlen(description) + strlen("options \n") + strlen(p->options) + strlen(source[0]) +
+		 strlen(source[1]) + strlen(source[2]);
+	p->key = malloc(length + 1);
+	if (!p->key)
+		return;
+	snprintf(p->key, length + 1, "%soptions %s\n%s%s%s", description, p->options, source[0], source[1], source[2]);
+	p->key_size = length;
 }
 
-cl_program lobe_cl_binary_load(lobe_cl_device *device, const char *key, size_t key_size, const char *options)
+void lobe_cl_binary_load(lobe_cl_device *device, lobe_cl_program *p)
 {
 	const lobe_cl_functions *const cl = device->cl;
 	cl_int error = CL_SUCCESS, taken = CL_SUCCESS;
 	size_t size = 0;
-	unsigned char *const binary = lobe_cache_get(key, key_size, &size);
+	unsigned char *const binary = p->key ? lobe_cache_get(p->key, p->key_size, &size) : NULL;
 	const unsigned char *from = binary;
 	cl_program program;
 	if (!binary)
-		return NULL;
+		return;
 	program = cl->clCreateProgramWithBinary(device->context, 1, &device->id, &size, &from, &taken, &error);
 	free(binary);
 	if (!program)
-		return NULL;
-	if (error == CL_SUCCESS && taken == CL_SUCCESS)
-		error = cl->clBuildProgram(program, 1, &device->id, options, NULL, NULL);
-	if (error == CL_SUCCESS && taken == CL_SUCCESS)
-		return program;
-	cl->clReleaseProgram(program);
-	return NULL;
+		return;
+	if (taken == CL_SUCCESS && cl->clBuildProgram(program, 1, &device->id, p->options, NULL, NULL) == CL_SUCCESS) {
+		p->program = program;
+		p->kept_size = size;
+	} else {
+		cl->clReleaseProgram(program);
+	}
 }
 
-void lobe_cl_binary_store(lobe_cl_device *device, cl_program program, const char *key, size_t key_size)
+/* A program in a context of several devices has a binary for each, and is not kept. */
+void lobe_cl_binary_store(lobe_cl_device *device, lobe_cl_program *p)
 {
 	const lobe_cl_functions *const cl = device->cl;
 	size_t size = 0;
 	unsigned char *binary;
-	if (cl->clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL) != CL_SUCCESS || size == 0)
+	if (!p->key ||
+	    cl->clGetProgramInfo(p->program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL) != CL_SUCCESS ||
+	    size == 0 || size == p->kept_size)
 		return;
 	binary = malloc(size);
-	if (binary && cl->clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS)
-		lobe_cache_put(key, key_size, binary, size);
+	if (binary && cl->clGetProgramInfo(p->program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS) {
+		lobe_cache_put(p->key, p->key_size, binary, size);
+		p->kept_size = size;
+	}
 	free(binary);
 }
 
@@ -97,8 +99,8 @@ void lobe_cl_binaries_update(lobe_cl_device *device)
 {
 	lobe_cl_program *p;
 	for (p = device->programs; p; p = p->next) {
-		if (p->key && p->outgrown)
-			lobe_cl_binary_store(device, p->program, p->key, p->key_size);
+		if (p->grows && p->outgrown)
+			lobe_cl_binary_store(device, p);
 		p->outgrown = 0;
 	}
 }

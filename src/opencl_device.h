@@ -1,5 +1,6 @@
 /* opencl_device.h - what the parts of the OpenCL backend share: opencl.c (devices), opencl_program.c (scenes and their
- * programs), opencl_binary.c (programs in the cache), opencl_run.c (batches: arrays to and from the device), opencl_launch.c (batches: kernels). */
+ * programs), opencl_binary.c (programs in the cache), opencl_run.c (batches: arrays to and from the device),
+ * opencl_launch.c (batches: kernels). */
 #ifndef LOBE_OPENCL_DEVICE_H
 #define LOBE_OPENCL_DEVICE_H
 
@@ -26,9 +27,11 @@ typedef struct lobe_cl_program {
 	cl_program program;
 	lobe_cl_kernel shade[LOBE_COUNT][LOBE_VERB_COUNT][LOBE_CL_HOW_COUNT];
 	lobe_cl_kernel zero, zero_mixed;
-	char *key;       /* in the cache, owned; NULL when there is nothing to write there, now or later */
+	char *key; /* in the cache, owned; NULL when there is nothing to look for there or to write to it any more */
 	size_t key_size;
-	int outgrown;    /* has kernels that the binary in the cache may lack */
+	size_t kept_size; /* of the binary in the cache, as far as is known here; 0: none */
+	int grows;        /* binaries hold the kernels that have been launched */
+	int outgrown;     /* a kernel has been made since the binary was taken */
 	char options[];
 } lobe_cl_program;
 
@@ -86,13 +89,11 @@ lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program,
 
 /* opencl_binary.c: binaries of programs in the cache (cache.h). None of these fails: without, there is the source. */
 
-/* What a binary is found by: the three parts of the source, the options, and all that names the device and its driver.
- * Owned by the caller; NULL: no cache for this device. *grows: its binaries hold the kernels that have been launched. */
-char *lobe_cl_binary_key(const lobe_cl_device *device, const char *const source[3], const char *options, size_t *size,
-			 int *grows);
-/* The program, built from the cache; NULL when it is not there or the device does not take it. */
-cl_program lobe_cl_binary_load(lobe_cl_device *device, const char *key, size_t key_size, const char *options);
-void lobe_cl_binary_store(lobe_cl_device *device, cl_program program, const char *key, size_t key_size);
+/* Sets p->key: the three parts of the source, the options, and all that names the device and its driver; and p->grows. */
+void lobe_cl_binary_find_key(const lobe_cl_device *device, lobe_cl_program *p, const char *const source[3]);
+/* Sets p->program from the cache, built, unless it is not there or the device does not take it. */
+void lobe_cl_binary_load(lobe_cl_device *device, lobe_cl_program *p);
+void lobe_cl_binary_store(lobe_cl_device *device, lobe_cl_program *p);
 /* Stores the programs that are outgrown. */
 void lobe_cl_binaries_update(lobe_cl_device *device);
 

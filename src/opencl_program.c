@@ -48,21 +48,19 @@ static lobe_status build(lobe_cl_device *device, lobe_cl_program *p)
 {
 	const char *source[3];
 	char run[64];
-	int grows = 0;
 	lobe_status status = LOBE_OK;
 	snprintf(run, sizeof run, "#define LOBE_RUN %lu\n", (unsigned long)device->run);
 	source[0] = lobe_opencl_source();
 	source[1] = run;
 	source[2] = lobe_opencl_kernels();
-	p->key = lobe_cl_binary_key(device, source, p->options, &p->key_size, &grows);
-	if (p->key)
-		p->program = lobe_cl_binary_load(device, p->key, p->key_size, p->options);
+	lobe_cl_binary_find_key(device, p, source);
+	lobe_cl_binary_load(device, p);
 	if (!p->program) {
 		status = build_source(device, source, p->options, &p->program);
-		if (status == LOBE_OK && p->key && !grows)
-			lobe_cl_binary_store(device, p->program, p->key, p->key_size);
+		if (status == LOBE_OK && !p->grows)
+			lobe_cl_binary_store(device, p);
 	}
-	if (status != LOBE_OK || !grows) {
+	if (status != LOBE_OK || !p->grows) {
 		free(p->key);
 		p->key = NULL;
 	}

@@ -71,7 +71,13 @@ LOBE_API const char *lobe_device_name(const lobe_device *device);
 LOBE_API void lobe_device_close(lobe_device *device);
 
 /* Takes a copy of materials[0..count), each checked field by field, and prepares the device for the kinds of lobe in it
- * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds. */
+ * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds.
+ *
+ * Built OpenCL programs are kept between runs in a folder: $LOBE_CACHE_DIR, else $XDG_CACHE_HOME/lobe, else ~/.cache/lobe;
+ * LOBE_CACHE_DIR="" keeps none. They are found by source, options, device and driver. A file that is damaged, not the
+ * user's own or refused by the driver is passed over, a folder that cannot be written does no harm, and what has not been
+ * used for longest goes when all exceed 64 MiB. Processes may share the folder. PoCL has a cache of its own, and takes
+ * longer to hand out a binary than to build a program: there ours is used only when LOBE_CACHE_DIR is set. */
 LOBE_API lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count);
 
 /* Null does nothing. */
