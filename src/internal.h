@@ -129,6 +129,13 @@ void lobe_set_error_message(const char *format, ...)
 #endif
 	;
 
+/* This thread's error message, for what fails on the way to success and for what another thread has done. (status.c) */
+typedef struct {
+	char text[4096];
+} lobe_message;
+void lobe_message_get(lobe_message *out);
+void lobe_message_set(const lobe_message *message);
+
 /* Elements [0, n) of material[] grouped by lobe: order[begin[L] .. begin[L+1]) are the elements of lobe L, ascending;
  * L up to and including LOBE_INDEX_NONE, begin has LOBE_COUNT + 2 entries. material has been checked. (sort.c) */
 void lobe_sort_by_lobe(const lobe_scene *scene, const uint32_t *material, size_t n, uint32_t *order, size_t *begin);

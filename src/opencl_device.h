@@ -41,20 +41,29 @@ typedef struct {
 	size_t size;
 } lobe_cl_buffer;
 
+/* A queue and the buffers that its commands use. */
+typedef struct {
+	cl_command_queue queue;
+	lobe_cl_buffer in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material, order;
+} lobe_cl_lane;
+
+/* Two, so that one's transfers go on beside the other's kernels. */
+enum { LOBE_CL_LANES = 2 };
+
 typedef struct {
 	lobe_device base;
 	const lobe_cl_functions *cl;
 	cl_context context;
 	cl_device_id id;
-	cl_command_queue queue;
-	int unified;      /* shares its memory with the host: batches need no copies */
-	size_t run;       /* elements in a work-item, LOBE_RUN of cl/kernels.cl */
-	size_t local;     /* work-items in a group */
-	size_t max_count; /* elements of 4 bytes in a buffer */
+	int unified;       /* shares its memory with the host: batches need no copies */
+	size_t run;        /* elements in a work-item, LOBE_RUN of cl/kernels.cl */
+	size_t local;      /* work-items in a group */
+	size_t max_count;  /* elements of 4 bytes in a buffer */
+	size_t copy_count; /* elements of a chunk of which a lane's buffers take a quarter of the device's memory */
 
 	pthread_mutex_t lock; /* held by every call that uses what is below, the kernels' arguments above all */
 	lobe_cl_program *programs;
-	lobe_cl_buffer in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material, order;
+	lobe_cl_lane lane[LOBE_CL_LANES]; /* the first one's queue is the device's; the second's is made when it is needed */
 } lobe_cl_device;
 
 /* scene->state */
@@ -70,6 +79,7 @@ typedef struct {
 /* A batch whose arrays are on the device. Outputs that nobody wants are scratch here, not NULL. */
 typedef struct {
 	lobe_cl_device *device;
+	lobe_cl_lane *lane;
 	const lobe_scene *scene;
 	int verb;
 	cl_mem in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material;
@@ -77,6 +87,9 @@ typedef struct {
 } lobe_cl_shading;
 
 static inline size_t lobe_cl_smaller(size_t a, size_t b) { return a < b ? a : b; }
+
+/* opencl.c: a queue for a lane that has none yet. */
+lobe_status lobe_cl_lane_open(lobe_cl_device *device, lobe_cl_lane *lane);
 
 /* opencl_program.c */
 lobe_status lobe_cl_scene_create(lobe_scene *scene);
