@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "internal.h"
+#include "event.h"
 
 /* --- devices ----------------------------------------------------------------------------------------------------- */
 
@@ -62,8 +62,10 @@ const char *lobe_device_name(const lobe_device *device) { return device ? device
 
 void lobe_device_close(lobe_device *device)
 {
-	if (device)
-		device->ops->close(device);
+	if (!device)
+		return;
+	lobe_worker_end(device->worker);
+	device->ops->close(device);
 }
 
 /* --- scenes ------------------------------------------------------------------------------------------------------ */
@@ -288,17 +290,31 @@ static lobe_status check_call(const void *scene, const void *batch, const char *
 	return LOBE_OK;
 }
 
-static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
+/* Checks a job of host arrays and finds its verb. */
+static lobe_status prepare_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
 {
 	if (job->count == 0)
 		return LOBE_OK;
 	lobe_status status = check_presence(job, sample, call);
 	if (status == LOBE_OK)
 		status = check_host(scene, job, sample, call);
-	if (status != LOBE_OK)
-		return status;
-	job->verb = sample ? sample_verb(job) : eval_verb(job);
-	return scene->device->ops->run(scene, job);
+	if (status == LOBE_OK)
+		job->verb = sample ? sample_verb(job) : eval_verb(job);
+	return status;
+}
+
+static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
+{
+	const lobe_status status = prepare_host(scene, job, sample, call);
+	return status == LOBE_OK && job->count ? scene->device->ops->run(scene, job) : status;
+}
+
+static lobe_status begin_host(lobe_scene *scene, lobe_job *job, int sample, lobe_event **out, const char *call)
+{
+	if (!out)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: out is NULL", call);
+	const lobe_status status = prepare_host(scene, job, sample, call);
+	return status == LOBE_OK ? lobe_event_begin(out, scene, job) : status;
 }
 
 static lobe_status run_device(lobe_scene *scene, lobe_job *job, int sample, const char *call)
@@ -348,6 +364,26 @@ lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch)
 		return status;
 	FILL_SAMPLE(job, batch);
 	return run_host(scene, &job, 1, "lobe_scene_sample");
+}
+
+lobe_status lobe_scene_eval_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_eval_async");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_EVAL(job, batch);
+	return begin_host(scene, &job, 0, out, "lobe_scene_eval_async");
+}
+
+lobe_status lobe_scene_sample_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_sample_async");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_SAMPLE(job, batch);
+	return begin_host(scene, &job, 1, out, "lobe_scene_sample_async");
 }
 
 lobe_status lobe_scene_eval_cl(lobe_scene *scene, const lobe_cl_batch *batch)

@@ -86,9 +86,12 @@ typedef struct {
 	lobe_status (*run_device)(lobe_scene *scene, const lobe_job *job); /* cl_mem arrays; NULL for a native device */
 } lobe_device_ops;
 
-/* First member of each backend's own device struct. */
+typedef struct lobe_worker lobe_worker; /* event.h */
+
+/* First member of each backend's own device struct, which begins as zeros. */
 struct lobe_device {
 	const lobe_device_ops *ops;
+	lobe_worker *worker; /* runs batches behind the caller; NULL until the first */
 	char name[256];
 };
 

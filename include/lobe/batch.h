@@ -103,6 +103,29 @@ LOBE_API lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch)
 /* sample_wi, weight, sample_pdf and event, whichever are asked for. At least one must be. */
 LOBE_API lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch);
 
+/* A batch that runs behind the caller. */
+typedef struct lobe_event lobe_event;
+
+/* lobe_scene_eval and lobe_scene_sample that return before the results are there. Arguments are checked at once, and what
+ * is wrong with them is this call's status; what fails later is the status of lobe_event_wait. Until the batch is done its
+ * arrays must stay, inputs unchanged, and so must the scene; lobe_batch itself is copied.
+ *
+ * A device runs such batches one after another in the order in which they were given, on a thread of its own that the
+ * first one starts, and in turn with plain calls from other threads; any number may be waiting. Batches given to several
+ * devices run at the same time. On an OpenCL device with memory of its own, the copies of one part of a large batch go on
+ * beside the kernels of another, here and in plain calls. */
+LOBE_API lobe_status lobe_scene_eval_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out);
+LOBE_API lobe_status lobe_scene_sample_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out);
+
+/* Waits until the batch is done. Its status, and after a failure its message; the same every time, from any thread. */
+LOBE_API lobe_status lobe_event_wait(lobe_event *event);
+
+/* 1 once the batch is done, 0 before. */
+LOBE_API int lobe_event_done(lobe_event *event);
+
+/* Waits until the batch is done and frees the event. Null does nothing. */
+LOBE_API void lobe_event_release(lobe_event *event);
+
 /* --- OpenCL ---------------------------------------------------------------------------------------------------- */
 
 /* OpenCL's own handles, without its headers: cl_context is a struct _cl_context * and so on. */
