@@ -160,6 +160,14 @@ lobe_status lobe_check_table(const lobe_bsdf *materials, size_t i);
 lobe_status lobe_native_open(lobe_device **out, size_t threads);
 lobe_status lobe_opencl_count(size_t *count);
 lobe_status lobe_opencl_open(lobe_device **out, size_t index);
+lobe_status lobe_opencl_open_all(lobe_device **out); /* opencl_all.c */
+
+/* A device that does on native what first fails to do. Takes both over when it succeeds. first NULL: opening it failed,
+ * with this thread's message as the reason. (fallback.c) */
+lobe_status lobe_fallback_open(lobe_device **out, lobe_device *first, lobe_device *native);
+
+/* out becomes a scene of its own on that device, in which the lists and parameters are from's. (batch.c) */
+lobe_status lobe_scene_share(lobe_scene *out, const lobe_scene *from, lobe_device *device);
 /* lobe_device_open_cl and lobe_device_cl are implemented in opencl.c, lobe_opencl_source in opencl_source.c and
  * lobe_opencl_options in batch.c. */
 

@@ -364,7 +364,7 @@ lobe_status lobe_device_cl(const lobe_device *base, struct _cl_context **context
 	if (!base)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_cl: device is NULL");
 	if (base->ops != &ops)
-		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_cl: device \"%s\" is not an OpenCL device",
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_cl: device \"%s\" is not one OpenCL device",
 				 base->name);
 	if (context)
 		*context = device->context;

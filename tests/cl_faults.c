@@ -1,6 +1,7 @@
 /* cl_faults.c - OpenCL that fails on demand, by wrappers around every function that the library calls. */
 #include "cl_faults.h"
 
+#include <pthread.h>
 #include <string.h>
 
 cl_faults_state cl_faults = {.failing = "", .counting = ""};
@@ -12,13 +13,26 @@ static int needs_device(const char *name)
 	       strcmp(name, "clFinish") == 0;
 }
 
+/* "opencl:all" calls from several threads. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
 /* 1 when this call is to fail. */
 static int fails(const char *name)
 {
+	pthread_mutex_lock(&lock);
 	cl_faults.counted += strcmp(name, cl_faults.counting) == 0;
-	if (cl_faults.lost && cl_faults.countdown < 0 && needs_device(name))
-		return 1;
-	return strcmp(name, cl_faults.failing) == 0 && cl_faults.countdown-- == 0;
+	int now = cl_faults.lost && cl_faults.countdown < 0 && needs_device(name);
+	if (!now)
+		now = strcmp(name, cl_faults.failing) == 0 && cl_faults.countdown-- == 0;
+	pthread_mutex_unlock(&lock);
+	return now;
+}
+
+static void count(long objects)
+{
+	pthread_mutex_lock(&lock);
+	cl_faults.live += objects;
+	pthread_mutex_unlock(&lock);
 }
 
 /* --- the wrappers ----------------------------------------------------------------------------------------------------- */
@@ -32,13 +46,13 @@ static int fails(const char *name)
 			return NULL;                                                                                   \
 		}                                                                                                      \
 		type made = cl_faults.real.name arguments;                                                                       \
-		cl_faults.live += made != NULL;                                                                                  \
+		count(made != NULL);                                                                                           \
 		return made;                                                                                           \
 	}
 #define RELEASES(name, type)                                                                                           \
 	static cl_int wrap_##name(type object)                                                                         \
 	{                                                                                                              \
-		cl_faults.live--;                                                                                                \
+		count(-1);                                                                                                \
 		return cl_faults.real.name(object);                                                                              \
 	}
 #define RETAINS(name, type)                                                                                            \
@@ -46,7 +60,7 @@ static int fails(const char *name)
 	{                                                                                                              \
 		if (fails(#name))                                                                                      \
 			return cl_faults.failure;                                                                                \
-		cl_faults.live++;                                                                                                \
+		count(1);                                                                                                \
 		return cl_faults.real.name(object);                                                                              \
 	}
 #define DOES(name, parameters, arguments)                                                                              \
@@ -136,35 +150,52 @@ static size_t size_of(cl_mem b)
 /* Memory that is the host's takes none of the device's. */
 static cl_ulong in_use;
 
+/* Takes n bytes of the device's memory; 0 when they are not free. */
+static int take(size_t n)
+{
+	pthread_mutex_lock(&lock);
+	const int fits = !cl_faults.free || in_use + n <= cl_faults.free;
+	if (fits)
+		in_use += n;
+	if (in_use > cl_faults.used)
+		cl_faults.used = in_use;
+	if (n > cl_faults.largest)
+		cl_faults.largest = n;
+	pthread_mutex_unlock(&lock);
+	return fits;
+}
+
+static void give_back(size_t n)
+{
+	pthread_mutex_lock(&lock);
+	in_use -= n;
+	pthread_mutex_unlock(&lock);
+}
+
 static cl_mem wrap_clCreateBuffer(cl_context c, cl_bitfield f, size_t n, void *p, cl_int *error)
 {
-	const int device = !(f & CL_MEM_USE_HOST_PTR);
+	const size_t bytes = f & CL_MEM_USE_HOST_PTR ? 0 : n;
 	if (fails("clCreateBuffer")) {
 		*error = cl_faults.failure;
 		return NULL;
 	}
-	if (device && cl_faults.free && in_use + n > cl_faults.free) {
+	if (!take(bytes)) {
 		*error = CL_MEM_OBJECT_ALLOCATION_FAILURE;
 		return NULL;
 	}
-	if (n > cl_faults.largest)
-		cl_faults.largest = n;
 	const cl_mem made = cl_faults.real.clCreateBuffer(c, f, n, p, error);
-	cl_faults.live += made != NULL;
-	if (made && device)
-		in_use += n;
-	if (in_use > cl_faults.used)
-		cl_faults.used = in_use;
+	count(made != NULL);
+	if (!made)
+		give_back(bytes);
 	return made;
 }
 
 static cl_int wrap_clReleaseMemObject(cl_mem b)
 {
 	cl_bitfield flags = 0;
-	cl_faults.live--;
 	cl_faults.real.clGetMemObjectInfo(b, CL_MEM_FLAGS, sizeof flags, &flags, NULL);
-	if (!(flags & CL_MEM_USE_HOST_PTR))
-		in_use -= size_of(b);
+	count(-1);
+	give_back(flags & CL_MEM_USE_HOST_PTR ? 0 : size_of(b));
 	return cl_faults.real.clReleaseMemObject(b);
 }
 

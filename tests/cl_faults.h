@@ -23,7 +23,7 @@ typedef struct {
 	const char *counting; /* a call whose calls are counted, or "" */
 	long counted;
 	long live;              /* objects created and not released */
-	cl_ulong used, largest; /* bytes of buffers at most at any time, and of the largest one */
+	cl_ulong used, largest; /* bytes of device memory at most at any time, and of the largest buffer there */
 } cl_faults_state;
 
 extern cl_faults_state cl_faults;

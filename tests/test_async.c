@@ -26,25 +26,7 @@ static lobe_scene *scene;
 void setUp(void) {}
 void tearDown(void) {}
 
-static lobe_batch batch_to(result out)
-{
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = N;
-	b.material = material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = in.array[k];
-		b.wi[k] = in.array[3 + k];
-		b.u[k] = in.array[6 + k];
-		b.f[k] = out[k];
-		b.sample_wi[k] = out[4 + k];
-		b.weight[k] = out[7 + k];
-	}
-	b.pdf = out[3];
-	b.sample_pdf = out[10];
-	b.event = (uint32_t *)(void *)out[11];
-	return b;
-}
+static lobe_batch batch_to(result out) { return inputs_batch(in, material, out[0]); }
 
 static void open_on(const char *name)
 {

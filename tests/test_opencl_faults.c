@@ -83,21 +83,7 @@ static lobe_status live_on(const char *name)
 {
 	lobe_device *device;
 	lobe_scene *scene;
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = N;
-	b.material = material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = in.array[k];
-		b.wi[k] = in.array[3 + k];
-		b.u[k] = in.array[6 + k];
-		b.f[k] = out[k];
-		b.sample_wi[k] = out[4 + k];
-		b.weight[k] = out[7 + k];
-	}
-	b.pdf = out[3];
-	b.sample_pdf = out[10];
-	b.event = (uint32_t *)(void *)out[11];
+	const lobe_batch b = inputs_batch(in, material, out[0]);
 	lobe_status status = lobe_device_open(&device, name);
 	if (status != LOBE_OK)
 		return status;
@@ -211,39 +197,18 @@ static void test_cache(void)
 
 /* --- large batches on devices with memory of their own ------------------------------------------------------------- */
 
-enum { LARGE = 200000, OUTPUTS = 12 };
+enum { LARGE = 200000 };
+static const size_t large_size = INPUTS_OUTPUTS * LARGE * sizeof(float);
 static inputs large;
 static uint32_t *large_material;
-static float *large_out[OUTPUTS], *large_expected[OUTPUTS];
-
-static lobe_batch large_batch(float **to)
-{
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = LARGE;
-	b.material = large_material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = large.array[k];
-		b.wi[k] = large.array[3 + k];
-		b.u[k] = large.array[6 + k];
-		b.f[k] = to[k];
-		b.sample_wi[k] = to[4 + k];
-		b.weight[k] = to[7 + k];
-	}
-	b.pdf = to[3];
-	b.sample_pdf = to[10];
-	b.event = (uint32_t *)(void *)to[11];
-	return b;
-}
+static float *large_out, *large_expected;
 
 /* mixed: by material; else the first material throughout. only_pdf: few of the outputs, the rest is scratch. */
-static void shade_large(const char *name, float **to, int mixed, int only_pdf)
+static void shade_large(const char *name, float *to, int mixed, int only_pdf)
 {
 	lobe_device *device;
 	lobe_scene *scene;
-	lobe_batch b = large_batch(to);
-	if (!mixed)
-		b.material = NULL;
+	lobe_batch b = inputs_batch(large, mixed ? large_material : NULL, to);
 	if (only_pdf)
 		for (int k = 0; k < 3; k++)
 			b.weight[k] = b.sample_wi[k] = NULL;
@@ -260,15 +225,12 @@ static void compare_large(void)
 {
 	for (int mixed = 0; mixed < 2; mixed++)
 		for (int only_pdf = 0; only_pdf < 2; only_pdf++) {
-			for (int k = 0; k < OUTPUTS; k++) {
-				memset(large_out[k], 0xee, LARGE * sizeof(float));
-				memset(large_expected[k], 0xee, LARGE * sizeof(float));
-			}
+			memset(large_out, 0xee, large_size);
+			memset(large_expected, 0xee, large_size);
 			shade_large("native", large_expected, mixed, only_pdf);
 			cl_faults.used = cl_faults.largest = 0;
 			shade_large("opencl", large_out, mixed, only_pdf);
-			for (int k = 0; k < OUTPUTS; k++)
-				TEST_ASSERT_EQUAL_MEMORY(large_expected[k], large_out[k], LARGE * sizeof(float));
+			TEST_ASSERT_EQUAL_MEMORY(large_expected, large_out, large_size);
 			TEST_ASSERT_EQUAL(0, cl_faults.live);
 			TEST_ASSERT_EQUAL_STRING("", lobe_error_message());
 		}
@@ -282,12 +244,10 @@ static void prepare_large(void)
 	TEST_ASSERT_NOT_NULL(large_material);
 	for (uint32_t i = 0; i < LARGE; i++)
 		large_material[i] = (i / 7 + i) % 3;
-	for (int k = 0; k < OUTPUTS; k++) {
-		large_out[k] = malloc(LARGE * sizeof(float));
-		large_expected[k] = malloc(LARGE * sizeof(float));
-		TEST_ASSERT_NOT_NULL(large_out[k]);
-		TEST_ASSERT_NOT_NULL(large_expected[k]);
-	}
+	large_out = malloc(large_size);
+	large_expected = malloc(large_size);
+	TEST_ASSERT_NOT_NULL(large_out);
+	TEST_ASSERT_NOT_NULL(large_expected);
 	lobe_set_error_message("%s", ""); /* nothing below sets it */
 }
 

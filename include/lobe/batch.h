@@ -60,12 +60,29 @@ LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
  *	"native:N"   N threads, 1 to 1024
  *	"opencl"     the first OpenCL device (the same as "opencl:0")
  *	"opencl:N"   OpenCL device N, counted over all platforms
+ *	"opencl:all" every OpenCL device that can be used, as one: a batch is split between them
+ *	"opencl,native", "opencl:N,native:N", "opencl:all,native" and so on: what the OpenCL device fails to do is done
+ *	             on the native one
+ *
+ * "opencl:all" gives each device an equal part of a scene's first batch of a kind, and then parts in proportion to the
+ * speed that was measured; a batch of fewer than 1024 elements for each device goes to the fastest. Results do not depend
+ * on it. A device that fails fails the batch, and the message names it. Devices that could not be opened are left out.
+ *
+ * With ",native" a batch that fails on the OpenCL device, lost in its middle say, runs natively from its beginning, and
+ * the caller sees nothing but the right results. A device that failed is not asked again (lobe_device_lost), unless it was
+ * short of memory; the same goes for a program that does not build, and for a device that cannot be opened in the first
+ * place. Such a device takes no cl_mem, nor does "opencl:all".
+ *
  * A native device runs the widest instruction set of "baseline", "avx2" and "avx512" that was compiled in and that the
  * processor has; the environment variable LOBE_ISA names a narrower one. Results do not depend on it. */
 LOBE_API lobe_status lobe_device_open(lobe_device **out, const char *name);
 
 /* What the device is, for people: "native, avx2, 2 threads", "opencl:0, PLATFORM, DEVICE". Valid until it is closed. */
 LOBE_API const char *lobe_device_name(const lobe_device *device);
+
+/* Null while the device does as its name says, and for devices without ",native". Why the native one has taken over for
+ * good, otherwise. Valid until the device is closed. */
+LOBE_API const char *lobe_device_lost(const lobe_device *device);
 
 /* Releases the device. Its scenes must have been destroyed before. Null does nothing. */
 LOBE_API void lobe_device_close(lobe_device *device);
