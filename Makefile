@@ -161,7 +161,7 @@ test-long:
 	@./deps.sh test
 	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(TEST_PROGRAMS)
 	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/long_*.c)) \
-		$(wildcard tests/test_*.sh)
+		$(wildcard tests/test_*.sh tests/long_*.sh)
 
 # Writes the known-answer vectors anew; git diff shows what changed.
 vectors: $(B)/tests/tool_vectors

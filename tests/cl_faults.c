@@ -99,7 +99,9 @@ static cl_int wrap_clGetDeviceInfo(cl_device_id d, cl_uint what, size_t n, void 
 	const cl_int error = cl_faults.real.clGetDeviceInfo(d, what, n, value, size);
 	if (error != CL_SUCCESS || !value)
 		return error;
-	if (cl_faults.discrete && what == CL_DEVICE_HOST_UNIFIED_MEMORY)
+	if (what == CL_DEVICE_SINGLE_FP_CONFIG)
+		*(cl_bitfield *)value |= cl_faults.claims;
+	else if (cl_faults.discrete && what == CL_DEVICE_HOST_UNIFIED_MEMORY)
 		memcpy(value, &no, sizeof no);
 	else if (cl_faults.discrete && what == CL_DEVICE_TYPE)
 		memcpy(value, &gpu, sizeof gpu);

@@ -104,7 +104,8 @@ LOBE_API void lobe_scene_destroy(lobe_scene *scene);
  * wanted; the three components of a vector are wanted together or not at all. Inputs may be the same arrays as each
  * other; an output must not overlap any input or other output (LOBE_ERROR_ARGUMENT).
  *
- * count 0 is allowed and does nothing. Inputs of one element never affect another's result. */
+ * count 0 is allowed and does nothing. A batch may be larger than an OpenCL device's memory, or than the part of it that is
+ * free: it goes through in chunks. Inputs of one element never affect another's result. */
 typedef struct {
 	size_t count;
 	const uint32_t *material;          /* index into the scene's materials, or NULL: material 0 for every element */
