@@ -43,7 +43,7 @@ LOBE_NATIVE ?= 1
 # Whose objects depend on nothing that such builds differ in, so that they can share them.
 ROW_DIR ?= $(B)/obj
 
-NATIVE_SOURCES := $(wildcard src/native*.c src/pool.c)
+NATIVE_SOURCES := $(wildcard src/native*.c)
 OPENCL_SOURCES := $(wildcard src/opencl*.c)
 NONE_SOURCES := src/native_none.c src/opencl_none.c
 LOOP_SOURCES := src/rows.c src/split.c src/linked.c
@@ -215,7 +215,7 @@ test-long:
 	@./deps.sh test
 	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(B)/heightfield $(TEST_PROGRAMS)
 	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/long_*.c)) \
-		$(wildcard tests/test_*.sh)
+		$(wildcard tests/test_*.sh tests/long_*.sh)
 
 # Writes the known-answer vectors anew; git diff shows what changed.
 vectors: $(B)/tests/tool_vectors

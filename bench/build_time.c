@@ -32,17 +32,18 @@ int bench_build_child(char **arguments)
 {
 	/* Those of PoCL, of Mesa and Intel, and of NVIDIA. Before the first call: the runtime reads them once. */
 	static const char *const variables[] = {"POCL_CACHE_DIR", "XDG_CACHE_HOME", "CUDA_CACHE_PATH", "cl_cache_dir"};
-	const int lobe = atoi(arguments[2]);
+	const int lobe = atoi(arguments[3]);
 	double start = bench_now(), time[TIMES];
 	lobe_device *device;
 	lobe_scene *scene[2];
 	bench_arrays a;
 	for (size_t i = 0; i < sizeof variables / sizeof *variables; i++)
 		setenv(variables[i], arguments[0], 1);
+	setenv("LOBE_CACHE_DIR", strcmp(arguments[1], "-") == 0 ? "" : arguments[1], 1);
 	if (!bench_arrays_create(&a, 1))
 		return 1;
 	const lobe_batch batch = bench_batch(&a, BENCH_SAMPLE, 1);
-	if (lobe_device_open(&device, arguments[1]) != LOBE_OK)
+	if (lobe_device_open(&device, arguments[2]) != LOBE_OK)
 		return child_failed();
 	time[OPEN] = bench_now() - start;
 	for (int i = 0; i < 2; i++) {
@@ -69,7 +70,7 @@ int bench_build_child(char **arguments)
 }
 
 /* Runs the child and reads its times. Without a shell, so that program and cache may have any name. */
-static int run_child(const char *program, const char *cache, const char *device, int lobe, double *time)
+static int run_child(const char *program, const char *cache, const char *kept, const char *device, int lobe, double *time)
 {
 	char number[16], output[256];
 	int ends[2], status = 1;
@@ -84,7 +85,7 @@ static int run_child(const char *program, const char *cache, const char *device,
 		dup2(ends[1], STDOUT_FILENO);
 		close(ends[0]);
 		close(ends[1]);
-		execlp(program, program, "--build-child", cache, device, number, (char *)NULL);
+		execlp(program, program, "--build-child", cache, kept, device, number, (char *)NULL);
 		_exit(127);
 	}
 	close(ends[1]);
@@ -122,46 +123,70 @@ static int remove_entry(const char *path, const struct stat *s, int type, struct
 
 /* --- table -------------------------------------------------------------------------------------------------------- */
 
+/* Starts by what they find: nothing; what the runtime kept of the one before; nothing, and lobe keeps the binary; that
+ * binary, and nothing of the runtime's. */
+enum { COLD, CACHED, KEEPING, KEPT, STARTS };
+static const char *const start_name[STARTS] = {"cold", "cached", "keeping", "kept"};
+
 typedef struct {
-	double cold_create, cold_launch, cached_create, cached_launch, again; /* milliseconds */
-	double cache_bytes;
+	double create[STARTS], launch[STARTS], again; /* milliseconds */
+	double cache_bytes, kept_bytes;
 } build_times;
 
 static double median_ms(double *seconds, size_t n) { return 1e3 * bench_stats_of(seconds, n).median; }
 
+static double bytes_in(const char *folder)
+{
+	folder_bytes = 0.0;
+	nftw(folder, add_size, 8, FTW_PHYS);
+	return folder_bytes;
+}
+
+/* A start of each kind, in folders made for them: the runtime's of COLD and CACHED, of KEEPING, of KEPT; lobe's. */
+static int one_of_each(const char *program, const char *device, int lobe, double time[STARTS][TIMES], build_times *out)
+{
+	const char *const base = getenv("TMPDIR");
+	char folder[4][1024];
+	int made = 0, ok = 1;
+	for (; ok && made < 4; made += ok) {
+		snprintf(folder[made], sizeof folder[made], "%s/lobe-bench-XXXXXX", base && *base ? base : "/tmp");
+		ok = mkdtemp(folder[made]) != NULL;
+	}
+	for (int i = 0; ok && i < STARTS; i++) {
+		ok = run_child(program, folder[i < KEEPING ? 0 : i - 1], i < KEEPING ? "-" : folder[3], device, lobe,
+			       time[i]);
+		if (i == COLD)
+			out->cache_bytes = bytes_in(folder[0]);
+	}
+	out->kept_bytes = made == 4 ? bytes_in(folder[3]) : 0.0;
+	while (made > 0)
+		nftw(folder[--made], remove_entry, 8, FTW_PHYS | FTW_DEPTH);
+	return ok;
+}
+
 static int measure(const char *program, const char *device, int lobe, size_t runs, build_times *out)
 {
-	double cold[TIMES], cached[TIMES], times[5][RUNS_MAX];
-	const char *const base = getenv("TMPDIR");
+	double create[STARTS][RUNS_MAX], launch[STARTS][RUNS_MAX], again[RUNS_MAX], time[STARTS][TIMES];
 	char what[128];
 	int ok = 1;
 	snprintf(what, sizeof what, "building %s on %s", bench_lobe_name(lobe), device);
 	for (size_t i = 0; ok && i < runs; i++) {
-		char cache[1024];
-		snprintf(cache, sizeof cache, "%s/lobe-bench-XXXXXX", base && *base ? base : "/tmp");
-		if (!mkdtemp(cache))
-			return 0;
 		bench_progress(what, i, runs);
-		ok = run_child(program, cache, device, lobe, cold);
-		folder_bytes = 0.0;
-		nftw(cache, add_size, 8, FTW_PHYS);
-		out->cache_bytes = folder_bytes;
-		ok = ok && run_child(program, cache, device, lobe, cached);
-		nftw(cache, remove_entry, 8, FTW_PHYS | FTW_DEPTH);
-		times[0][i] = cold[CREATE];
-		times[1][i] = cold[LAUNCH];
-		times[2][i] = cached[CREATE];
-		times[3][i] = cached[LAUNCH];
-		times[4][i] = cached[AGAIN];
+		ok = one_of_each(program, device, lobe, time, out);
+		for (int k = 0; ok && k < STARTS; k++) {
+			create[k][i] = time[k][CREATE];
+			launch[k][i] = time[k][LAUNCH];
+		}
+		again[i] = ok ? time[CACHED][AGAIN] : 0.0;
 	}
 	bench_progress(NULL, 0, 0);
 	if (!ok)
 		return 0;
-	out->cold_create = median_ms(times[0], runs);
-	out->cold_launch = median_ms(times[1], runs);
-	out->cached_create = median_ms(times[2], runs);
-	out->cached_launch = median_ms(times[3], runs);
-	out->again = median_ms(times[4], runs);
+	for (int k = 0; k < STARTS; k++) {
+		out->create[k] = median_ms(create[k], runs);
+		out->launch[k] = median_ms(launch[k], runs);
+	}
+	out->again = median_ms(again, runs);
 	return 1;
 }
 
@@ -174,11 +199,15 @@ static int row(const char *program, const bench_device *d, int lobe, size_t runs
 		fprintf(stderr, "throughput: building %s on %s failed\n", bench_lobe_name(lobe), d->label);
 		return 0;
 	}
-	printf("%-18s %-10s %5zu %11.1f %11.1f %11.1f %11.1f %9.3f %9.1f\n", bench_lobe_name(lobe), d->label, runs,
-	       t.cold_create, t.cold_launch, t.cached_create, t.cached_launch, t.again, t.cache_bytes / 1024.0);
-	fprintf(csv, "%s,%s,%zu,%.3f,%.3f,%.3f,%.3f,%.4f,%.0f,%zu,%s\n", bench_lobe_name(lobe), d->label, runs,
-		t.cold_create, t.cold_launch, t.cached_create, t.cached_launch, t.again, t.cache_bytes,
-		strlen(lobe_opencl_source()), lobe_opencl_options(scene));
+	printf("%-18s %-9s %4zu", bench_lobe_name(lobe), d->label, runs);
+	fprintf(csv, "%s,%s,%zu", bench_lobe_name(lobe), d->label, runs);
+	for (int k = 0; k < STARTS; k++) {
+		printf(" %8.1f %7.1f", t.create[k], t.launch[k]);
+		fprintf(csv, ",%.3f,%.3f", t.create[k], t.launch[k]);
+	}
+	printf(" %7.3f %7.0f\n", t.again, t.kept_bytes / 1024.0);
+	fprintf(csv, ",%.4f,%.0f,%.0f,%zu,%s\n", t.again, t.cache_bytes, t.kept_bytes, strlen(lobe_opencl_source()),
+		lobe_opencl_options(scene));
 	lobe_scene_destroy(scene);
 	return 1;
 }
@@ -191,17 +220,23 @@ int bench_build_times(const char *program, const bench_device *devices, int coun
 	int ok = csv != NULL, rows = 0;
 	if (!ok)
 		return 0;
-	printf("\nOpenCL programs: build time by scene, medians. cold: nothing in the runtime's cache. cached: in a\n"
-	       "new process. again: a second scene of the same lobes in that process, with its launch. The source is\n"
-	       "the same %zu bytes for every scene; options leave lobes out.\n\n",
+	printf("\nOpenCL programs: build time by scene, medians in ms: creating the scene, and the first launch. cold:\n"
+	       "nothing kept. cached: a second process finds what the runtime keeps by itself. keeping: cold, and lobe\n"
+	       "puts the binary into LOBE_CACHE_DIR. kept: a second process finds that binary and nothing of the\n"
+	       "runtime's. again: a second scene of the same lobes in one process, with its launch. The source is the\n"
+	       "same %zu bytes for every scene; options leave lobes out.\n\n",
 	       strlen(lobe_opencl_source()));
-	printf("%-18s %-10s %5s %11s %11s %11s %11s %9s %9s\n", "scene", "device", "runs", "cold", "cold", "cached",
-	       "cached", "again", "in cache");
-	printf("%-18s %-10s %5s %11s %11s %11s %11s %9s %9s\n", "", "", "", "create ms", "launch ms", "create ms",
-	       "launch ms", "ms", "KiB");
-	fputs("scene,device,runs,cold_create_ms,cold_launch_ms,cached_create_ms,cached_launch_ms,again_ms,"
-	      "cache_bytes,source_bytes,options\n",
-	      csv);
+	printf("%-18s %-9s %4s", "scene", "device", "runs");
+	for (int k = 0; k < STARTS; k++)
+		printf(" %16s", start_name[k]);
+	printf(" %7s %7s\n%-18s %-9s %4s", "again", "kept", "", "", "");
+	for (int k = 0; k < STARTS; k++)
+		printf(" %8s %7s", "create", "launch");
+	printf(" %7s %7s\n", "", "KiB");
+	fputs("scene,device,runs", csv);
+	for (int k = 0; k < STARTS; k++)
+		fprintf(csv, ",%s_create_ms,%s_launch_ms", start_name[k], start_name[k]);
+	fputs(",again_ms,cache_bytes,kept_bytes,source_bytes,options\n", csv);
 	for (int d = 0; d < count; d++)
 		for (int i = 0; ok && i <= BENCH_LOBES; i++)
 			if (bench_is_opencl(&devices[d]) && (lobe < 0 || lobe == i)) {

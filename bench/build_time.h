@@ -1,19 +1,18 @@
-/* build_time.h - how long the OpenCL program of a scene takes to build: cold, with the runtime's cache filled, and for
- * a second scene of the same kinds on an open device. */
+/* build_time.h - how long the OpenCL program of a scene takes to build: cold, with the runtime's cache filled, with
+ * lobe's own, and for a second scene of the same kinds on an open device. */
 #ifndef LOBE_BENCH_BUILD_TIME_H
 #define LOBE_BENCH_BUILD_TIME_H
 
 #include "scenes.h"
 
 /* Prints the table of each lobe alone and of all of them (lobe: that one alone, -1: all), by OpenCL device, and writes
- * it to path. Each cold and each cached build is a process of its own: program, run as bench_build_child wants it.
- * runs: cold and cached builds of each, of which the median counts; only one of each once seconds have passed. 0 after
- * a failure. */
+ * it to path. Each build is a process of its own: program, run as bench_build_child wants it. runs: builds of each
+ * kind, of which the median counts; only one of each once seconds have passed. 0 after a failure. */
 int bench_build_times(const char *program, const bench_device *devices, int count, int lobe, size_t runs,
 		      double seconds, const char *path);
 
-/* The child: program --build-child CACHE DEVICE LOBE. CACHE: the folder in which OpenCL runtimes are to keep what they
- * compiled; LOBE: as BENCH_LOBE_*. Prints seconds. Its exit status. */
+/* The child: program --build-child CACHE KEPT DEVICE LOBE. CACHE: the folder in which OpenCL runtimes are to keep what
+ * they compiled; KEPT: LOBE_CACHE_DIR, or "-" for none; LOBE: as BENCH_LOBE_*. Prints seconds. Its exit status. */
 int bench_build_child(char **arguments);
 
 #endif

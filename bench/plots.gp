@@ -60,8 +60,9 @@ do for [device in DEVICES] {
 		set logscale y
 		set yrange [0.001:*]
 		plot builds(device) using ($4 + $5):xtic(1) title "cold", \
-			builds(device) using ($6 + $7) title "cached, in a new process", \
-			builds(device) using 8 title "a second scene"
+			builds(device) using ($6 + $7) title "cached by the runtime, in a new process", \
+			builds(device) using ($10 + $11) title "kept by lobe, in a new process", \
+			builds(device) using 12 title "a second scene"
 		unset logscale y
 	}
 }

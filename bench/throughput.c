@@ -133,7 +133,7 @@ int main(int argc, char **argv)
 	bench_device devices[BENCH_DEVICES_MAX];
 	bench_results results = {NULL, 0};
 	int ok = 1;
-	if (argc == 5 && strcmp(argv[1], "--build-child") == 0)
+	if (argc == 6 && strcmp(argv[1], "--build-child") == 0)
 		return bench_build_child(argv + 2);
 	const int status = bench_options_parse(&o, argc, argv);
 	if (status != 0)

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "internal.h"
+#include "event.h"
 #include "strides.h"
 
 /* --- devices ----------------------------------------------------------------------------------------------------- */
@@ -38,31 +38,78 @@ static int parse_name(const char *name, const char *backend, size_t *number, int
 	return !*s;
 }
 
+static lobe_status open_native(lobe_device **out, const char *name, size_t threads, int given)
+{
+	if (given && (threads < 1 || threads > 1024))
+		return lobe_fail(LOBE_ERROR_DEVICE, "lobe_device_open: \"%s\": threads must be 1 to 1024", name);
+	return lobe_native_open(out, threads);
+}
+
+static lobe_status bad_name(const char *name)
+{
+	return lobe_fail(LOBE_ERROR_DEVICE,
+			 "lobe_device_open: no device \"%s\"; names are native, native:THREADS, opencl, opencl:INDEX, "
+			 "opencl:all, and one of opencl followed by ,native or ,native:THREADS",
+			 name);
+}
+
+/* "opencl:INDEX,native:THREADS" and the like; rest is what comes after the comma. */
+static lobe_status open_fallback(lobe_device **out, const char *name, const char *rest)
+{
+	const size_t length = (size_t)(rest - 1 - name);
+	lobe_device *first = NULL, *native;
+	char head[32];
+	size_t threads, index;
+	int given, all;
+	if (length >= sizeof head || !parse_name(rest, "native", &threads, &given))
+		return bad_name(name);
+	memcpy(head, name, length);
+	head[length] = '\0';
+	all = strcmp(head, "opencl:all") == 0;
+	if (!all && !parse_name(head, "opencl", &index, &(int){0}))
+		return bad_name(name);
+	lobe_status status = open_native(&native, name, threads, given);
+	if (status != LOBE_OK)
+		return status;
+	lobe_message before;
+	lobe_message_get(&before);
+	status = all ? lobe_opencl_open_all(&first) : lobe_opencl_open(&first, index);
+	status = lobe_fallback_open(out, status == LOBE_OK ? first : NULL, native);
+	if (status == LOBE_OK) {
+		lobe_message_set(&before);
+	} else {
+		lobe_device_close(first);
+		lobe_device_close(native);
+	}
+	return status;
+}
+
 lobe_status lobe_device_open(lobe_device **out, const char *name)
 {
 	size_t number;
 	int given;
 	if (!out || !name)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_open: %s is NULL", out ? "name" : "out");
-	if (parse_name(name, "native", &number, &given)) {
-		if (given && (number < 1 || number > 1024))
-			return lobe_fail(LOBE_ERROR_DEVICE, "lobe_device_open: \"%s\": threads must be 1 to 1024",
-					 name);
-		return lobe_native_open(out, number);
-	}
+	const char *const comma = strchr(name, ',');
+	if (comma)
+		return open_fallback(out, name, comma + 1);
+	if (parse_name(name, "native", &number, &given))
+		return open_native(out, name, number, given);
+	if (strcmp(name, "opencl:all") == 0)
+		return lobe_opencl_open_all(out);
 	if (parse_name(name, "opencl", &number, &given))
 		return lobe_opencl_open(out, number);
-	return lobe_fail(LOBE_ERROR_DEVICE,
-			 "lobe_device_open: no device \"%s\"; names are native, native:THREADS, opencl, opencl:INDEX",
-			 name);
+	return bad_name(name);
 }
 
 const char *lobe_device_name(const lobe_device *device) { return device ? device->name : ""; }
 
 void lobe_device_close(lobe_device *device)
 {
-	if (device)
-		device->ops->close(device);
+	if (!device)
+		return;
+	lobe_worker_end(device->worker);
+	device->ops->close(device);
 }
 
 /* --- scenes ------------------------------------------------------------------------------------------------------ */
@@ -161,6 +208,14 @@ lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_
 	}
 	*out = scene;
 	return LOBE_OK;
+}
+
+lobe_status lobe_scene_share(lobe_scene *out, const lobe_scene *from, lobe_device *device)
+{
+	*out = *from;
+	out->device = device;
+	out->state = NULL;
+	return device->ops->scene_create(out);
 }
 
 void lobe_scene_destroy(lobe_scene *scene)
@@ -287,17 +342,31 @@ static lobe_status check_call(const void *scene, const void *batch, const char *
 	return LOBE_OK;
 }
 
-static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
+/* Checks a job of host arrays and finds its verb. */
+static lobe_status prepare_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
 {
 	if (job->count == 0)
 		return LOBE_OK;
 	lobe_status status = check_presence(job, sample, call);
 	if (status == LOBE_OK)
 		status = check_host(scene, job, sample, call);
-	if (status != LOBE_OK)
-		return status;
-	job->verb = sample ? sample_verb(job) : eval_verb(job);
-	return scene->device->takes_strides ? scene->device->ops->run(scene, job) : lobe_run_packed(scene, job);
+	if (status == LOBE_OK)
+		job->verb = sample ? sample_verb(job) : eval_verb(job);
+	return status;
+}
+
+static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
+{
+	const lobe_status status = prepare_host(scene, job, sample, call);
+	return status == LOBE_OK ? lobe_run(scene, job) : status;
+}
+
+static lobe_status begin_host(lobe_scene *scene, lobe_job *job, int sample, lobe_event **out, const char *call)
+{
+	if (!out)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: out is NULL", call);
+	const lobe_status status = prepare_host(scene, job, sample, call);
+	return status == LOBE_OK ? lobe_event_begin(out, scene, job) : status;
 }
 
 static lobe_status run_device(lobe_scene *scene, lobe_job *job, int sample, const char *call)
@@ -349,6 +418,28 @@ lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch)
 	FILL_SAMPLE(job, batch);
 	fill_sample_strides(&job, &batch->stride);
 	return run_host(scene, &job, 1, "lobe_scene_sample");
+}
+
+lobe_status lobe_scene_eval_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_eval_async");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_EVAL(job, batch);
+	fill_eval_strides(&job, &batch->stride);
+	return begin_host(scene, &job, 0, out, "lobe_scene_eval_async");
+}
+
+lobe_status lobe_scene_sample_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out)
+{
+	const lobe_status status = check_call(scene, batch, "lobe_scene_sample_async");
+	lobe_job job = {0};
+	if (status != LOBE_OK)
+		return status;
+	FILL_SAMPLE(job, batch);
+	fill_sample_strides(&job, &batch->stride);
+	return begin_host(scene, &job, 1, out, "lobe_scene_sample_async");
 }
 
 lobe_status lobe_scene_eval_cl(lobe_scene *scene, const lobe_cl_batch *batch)

@@ -87,10 +87,13 @@ typedef struct {
 	lobe_status (*run_device)(lobe_scene *scene, const lobe_job *job); /* cl_mem arrays; NULL for a native device */
 } lobe_device_ops;
 
-/* First member of each backend's own device struct. */
+typedef struct lobe_worker lobe_worker; /* event.h */
+
+/* First member of each backend's own device struct, which begins as zeros. */
 struct lobe_device {
 	const lobe_device_ops *ops;
 	int takes_strides; /* 0: run gets packed arrays alone */
+	lobe_worker *worker; /* runs batches behind the caller; NULL until the first */
 	char name[256];
 };
 
@@ -131,6 +134,13 @@ void lobe_set_error_message(const char *format, ...)
 #endif
 	;
 
+/* This thread's error message, for what fails on the way to success and for what another thread has done. (status.c) */
+typedef struct {
+	char text[4096];
+} lobe_message;
+void lobe_message_get(lobe_message *out);
+void lobe_message_set(const lobe_message *message);
+
 /* Elements [0, n) of material[] grouped by lobe: order[begin[L] .. begin[L+1]) are the elements of lobe L, ascending;
  * L up to and including LOBE_INDEX_NONE, begin has LOBE_COUNT + 2 entries. material has been checked. (sort.c) */
 void lobe_sort_by_lobe(const lobe_scene *scene, const uint32_t *material, size_t n, uint32_t *order, size_t *begin);
@@ -157,6 +167,14 @@ lobe_status lobe_native_count(size_t *count);
 lobe_status lobe_native_open(lobe_device **out, size_t threads);
 lobe_status lobe_opencl_count(size_t *count);
 lobe_status lobe_opencl_open(lobe_device **out, size_t index);
+lobe_status lobe_opencl_open_all(lobe_device **out); /* opencl_all.c */
+
+/* A device that does on native what first fails to do. Takes both over when it succeeds. first NULL: opening it failed,
+ * with this thread's message as the reason. (fallback.c) */
+lobe_status lobe_fallback_open(lobe_device **out, lobe_device *first, lobe_device *native);
+
+/* out becomes a scene of its own on that device, in which the lists and parameters are from's. (batch.c) */
+lobe_status lobe_scene_share(lobe_scene *out, const lobe_scene *from, lobe_device *device);
 /* lobe_device_open_cl and lobe_device_cl are implemented in opencl.c, lobe_opencl_source in opencl_source.c and
  * lobe_opencl_options in batch.c. */
 

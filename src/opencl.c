@@ -103,6 +103,16 @@ static void trim(char *s)
 	s[n - blank] = '\0';
 }
 
+/* Arrays of a lane: inputs, outputs, material and order. */
+enum { LANE_ARRAYS = LOBE_IN_COUNT + LOBE_OUT_COUNT + 2 };
+
+/* Elements of 4 bytes that fit: 1 at least. */
+static size_t elements(cl_ulong bytes)
+{
+	const cl_ulong n = bytes / 4 < SIZE_MAX / 4 ? bytes / 4 : SIZE_MAX / 4;
+	return n == 0 ? 1 : (size_t)n;
+}
+
 /* What device->id can do, and the device's name: prefix, then platform and device. */
 static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 {
@@ -118,7 +128,7 @@ static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 	cl_bitfield type = 0, single = 0;
 	size_t max_local = 1;
 	cl_bool available = CL_FALSE, compiler = CL_FALSE, little = CL_FALSE, unified = CL_FALSE;
-	cl_ulong max_size = 0;
+	cl_ulong max_size = 0, memory = 0;
 	char platform_name[1024] = "", device_name[1024] = "";
 	const struct {
 		cl_uint what;
@@ -133,6 +143,7 @@ static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 		     {CL_DEVICE_ENDIAN_LITTLE, sizeof little, &little},
 		     {CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified},
 		     {CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof max_size, &max_size},
+		     {CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory},
 		     {CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof max_local, &max_local}};
 	const uint32_t one = 1;
 	cl_int error = CL_SUCCESS;
@@ -165,9 +176,8 @@ static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 	device->local = device->run > 1 ? 1 : GPU_LOCAL;
 	while (device->local > max_local)
 		device->local /= 2;
-	device->max_count = max_size / 4 < SIZE_MAX / 4 ? (size_t)(max_size / 4) : SIZE_MAX / 4;
-	if (device->max_count == 0)
-		device->max_count = 1;
+	device->max_count = elements(max_size);
+	device->copy_count = elements(memory / 4 / LANE_ARRAYS);
 	return LOBE_OK;
 }
 
@@ -175,10 +185,13 @@ static void close_device(lobe_device *base)
 {
 	lobe_cl_device *const device = (lobe_cl_device *)base;
 	const lobe_cl_functions *const cl = device->cl;
+	int i;
 	lobe_cl_buffers_release(device);
 	lobe_cl_programs_release(device);
-	if (device->queue)
-		cl->clReleaseCommandQueue(device->queue);
+	for (i = 0; i < LOBE_CL_LANES; i++) {
+		if (device->lane[i].queue)
+			cl->clReleaseCommandQueue(device->lane[i].queue);
+	}
 	if (device->context)
 		cl->clReleaseContext(device->context);
 	if (device->id)
@@ -205,6 +218,13 @@ static lobe_cl_device *new_device(const lobe_cl_functions *cl)
 	return device;
 }
 
+lobe_status lobe_cl_lane_open(lobe_cl_device *device, lobe_cl_lane *lane)
+{
+	cl_int error = CL_SUCCESS;
+	lane->queue = device->cl->clCreateCommandQueue(device->context, device->id, 0, &error);
+	return lane->queue ? LOBE_OK : lobe_cl_fail("clCreateCommandQueue", error);
+}
+
 /* Fills a new device with a context and a queue of its own. */
 static lobe_status make_own(lobe_cl_device *device, const entry *from)
 {
@@ -217,8 +237,7 @@ static lobe_status make_own(lobe_cl_device *device, const entry *from)
 	device->context = cl->clCreateContext(properties, 1, &from->id, NULL, NULL, &error);
 	if (!device->context)
 		return lobe_cl_fail("clCreateContext", error);
-	device->queue = cl->clCreateCommandQueue(device->context, device->id, 0, &error);
-	return device->queue ? LOBE_OK : lobe_cl_fail("clCreateCommandQueue", error);
+	return lobe_cl_lane_open(device, &device->lane[0]);
 }
 
 lobe_status lobe_opencl_open(lobe_device **out, size_t index)
@@ -300,7 +319,7 @@ static lobe_status retain(lobe_cl_device *device, cl_context context, cl_device_
 	error = cl->clRetainCommandQueue(queue);
 	if (error != CL_SUCCESS)
 		return lobe_cl_fail("clRetainCommandQueue", error);
-	device->queue = queue;
+	device->lane[0].queue = queue;
 	return LOBE_OK;
 }
 
@@ -345,13 +364,13 @@ lobe_status lobe_device_cl(const lobe_device *base, struct _cl_context **context
 	if (!base)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_cl: device is NULL");
 	if (base->ops != &ops)
-		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_cl: device \"%s\" is not an OpenCL device",
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_device_cl: device \"%s\" is not one OpenCL device",
 				 base->name);
 	if (context)
 		*context = device->context;
 	if (id)
 		*id = device->id;
 	if (queue)
-		*queue = device->queue;
+		*queue = device->lane[0].queue;
 	return LOBE_OK;
 }

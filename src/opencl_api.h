@@ -87,23 +87,30 @@ enum {
 		CL_FALSE = 0,
 	CL_TRUE = 1,
 
+	CL_PLATFORM_VERSION = 0x0901,
 	CL_PLATFORM_NAME = 0x0902,
 	CL_DEVICE_TYPE = 0x1000,
 	CL_DEVICE_MAX_WORK_GROUP_SIZE = 0x1004,
 	CL_DEVICE_MAX_MEM_ALLOC_SIZE = 0x1010,
 	CL_DEVICE_SINGLE_FP_CONFIG = 0x101B,
+	CL_DEVICE_GLOBAL_MEM_SIZE = 0x101F,
 	CL_DEVICE_ENDIAN_LITTLE = 0x1026,
 	CL_DEVICE_AVAILABLE = 0x1027,
 	CL_DEVICE_COMPILER_AVAILABLE = 0x1028,
 	CL_DEVICE_NAME = 0x102B,
+	CL_DRIVER_VERSION = 0x102D,
+	CL_DEVICE_VERSION = 0x102F,
 	CL_DEVICE_PLATFORM = 0x1031,
 	CL_DEVICE_HOST_UNIFIED_MEMORY = 0x1035,
 	CL_CONTEXT_PLATFORM = 0x1084,
 	CL_QUEUE_CONTEXT = 0x1090,
 	CL_QUEUE_DEVICE = 0x1091,
 	CL_QUEUE_PROPERTIES = 0x1093,
+	CL_MEM_FLAGS = 0x1101,
 	CL_MEM_SIZE = 0x1102,
 	CL_MEM_CONTEXT = 0x1106,
+	CL_PROGRAM_BINARY_SIZES = 0x1165,
+	CL_PROGRAM_BINARIES = 0x1166,
 	CL_PROGRAM_BUILD_LOG = 0x1183,
 	CL_KERNEL_WORK_GROUP_SIZE = 0x11B0
 };
@@ -147,6 +154,10 @@ enum {
 	LOBE_CL_FUNCTION(cl_int, clReleaseCommandQueue, (cl_command_queue))                                            \
 	LOBE_CL_FUNCTION(cl_program, clCreateProgramWithSource,                                                        \
 			 (cl_context, cl_uint, const char **, const size_t *, cl_int *))                               \
+	LOBE_CL_FUNCTION(cl_program, clCreateProgramWithBinary,                                                        \
+			 (cl_context, cl_uint, const cl_device_id *, const size_t *, const unsigned char **, cl_int *, \
+			  cl_int *))                                                                                   \
+	LOBE_CL_FUNCTION(cl_int, clGetProgramInfo, (cl_program, cl_uint, size_t, void *, size_t *))                    \
 	LOBE_CL_FUNCTION(                                                                                              \
 		cl_int, clBuildProgram,                                                                                \
 		(cl_program, cl_uint, const cl_device_id *, const char *, void (*)(cl_program, void *), void *))       \

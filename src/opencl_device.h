@@ -1,5 +1,6 @@
 /* opencl_device.h - what the parts of the OpenCL backend share: opencl.c (devices), opencl_program.c (scenes and their
- * programs), opencl_run.c (batches: arrays to and from the device), opencl_launch.c (batches: kernels). */
+ * programs), opencl_binary.c (programs in the cache), opencl_run.c (batches: arrays to and from the device),
+ * opencl_launch.c (batches: kernels). */
 #ifndef LOBE_OPENCL_DEVICE_H
 #define LOBE_OPENCL_DEVICE_H
 
@@ -26,6 +27,11 @@ typedef struct lobe_cl_program {
 	cl_program program;
 	lobe_cl_kernel shade[LOBE_COUNT][LOBE_VERB_COUNT][LOBE_CL_HOW_COUNT];
 	lobe_cl_kernel zero, zero_mixed;
+	char *key; /* in the cache, owned; NULL when there is nothing to look for there or to write to it any more */
+	size_t key_size;
+	size_t kept_size; /* of the binary in the cache, as far as is known here; 0: none */
+	int grows;        /* binaries hold the kernels that have been launched */
+	int outgrown;     /* a kernel has been made since the binary was taken */
 	char options[];
 } lobe_cl_program;
 
@@ -35,20 +41,29 @@ typedef struct {
 	size_t size;
 } lobe_cl_buffer;
 
+/* A queue and the buffers that its commands use. */
+typedef struct {
+	cl_command_queue queue;
+	lobe_cl_buffer in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material, order;
+} lobe_cl_lane;
+
+/* Two, so that one's transfers go on beside the other's kernels. */
+enum { LOBE_CL_LANES = 2 };
+
 typedef struct {
 	lobe_device base;
 	const lobe_cl_functions *cl;
 	cl_context context;
 	cl_device_id id;
-	cl_command_queue queue;
-	int unified;      /* shares its memory with the host: batches need no copies */
-	size_t run;       /* elements in a work-item, LOBE_RUN of cl/kernels.cl */
-	size_t local;     /* work-items in a group */
-	size_t max_count; /* elements of 4 bytes in a buffer */
+	int unified;       /* shares its memory with the host: batches need no copies */
+	size_t run;        /* elements in a work-item, LOBE_RUN of cl/kernels.cl */
+	size_t local;      /* work-items in a group */
+	size_t max_count;  /* elements of 4 bytes in a buffer */
+	size_t copy_count; /* elements of a chunk of which a lane's buffers take a quarter of the device's memory */
 
 	pthread_mutex_t lock; /* held by every call that uses what is below, the kernels' arguments above all */
 	lobe_cl_program *programs;
-	lobe_cl_buffer in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material, order;
+	lobe_cl_lane lane[LOBE_CL_LANES]; /* the first one's queue is the device's; the second's is made when it is needed */
 } lobe_cl_device;
 
 /* scene->state */
@@ -64,6 +79,7 @@ typedef struct {
 /* A batch whose arrays are on the device. Outputs that nobody wants are scratch here, not NULL. */
 typedef struct {
 	lobe_cl_device *device;
+	lobe_cl_lane *lane;
 	const lobe_scene *scene;
 	int verb;
 	cl_mem in[LOBE_IN_COUNT], out[LOBE_OUT_COUNT], material;
@@ -71,6 +87,9 @@ typedef struct {
 } lobe_cl_shading;
 
 static inline size_t lobe_cl_smaller(size_t a, size_t b) { return a < b ? a : b; }
+
+/* opencl.c: a queue for a lane that has none yet. */
+lobe_status lobe_cl_lane_open(lobe_cl_device *device, lobe_cl_lane *lane);
 
 /* opencl_program.c */
 lobe_status lobe_cl_scene_create(lobe_scene *scene);
@@ -81,9 +100,18 @@ void lobe_cl_programs_release(lobe_cl_device *device);
 lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program, int lobe, int verb, int how,
 			       lobe_cl_kernel *out);
 
+/* opencl_binary.c: binaries of programs in the cache (cache.h). None of these fails: without, there is the source. */
+
+/* Sets p->key: the three parts of the source, the options, and all that names the device and its driver; and p->grows. */
+void lobe_cl_binary_find_key(const lobe_cl_device *device, lobe_cl_program *p, const char *const source[3]);
+/* Sets p->program from the cache, built, unless it is not there or the device does not take it. */
+void lobe_cl_binary_load(lobe_cl_device *device, lobe_cl_program *p);
+void lobe_cl_binary_store(lobe_cl_device *device, lobe_cl_program *p);
+/* Stores the programs that are outgrown. */
+void lobe_cl_binaries_update(lobe_cl_device *device);
+
 /* opencl_launch.c */
 
-/* Whether output o (LOBE_OUT_*) is an argument of the verb's kernels. */
 /* Makes room for count elements of 4 bytes; the contents are lost when the buffer grows. */
 lobe_status lobe_cl_grow(lobe_cl_device *device, lobe_cl_buffer *buffer, size_t count);
 void lobe_cl_buffers_release(lobe_cl_device *device);

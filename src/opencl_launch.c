@@ -27,25 +27,32 @@ lobe_status lobe_cl_grow(lobe_cl_device *device, lobe_cl_buffer *buffer, size_t 
 	return LOBE_OK;
 }
 
+static void release(lobe_cl_device *device, lobe_cl_buffer *buffer)
+{
+	if (buffer->mem)
+		device->cl->clReleaseMemObject(buffer->mem);
+	buffer->mem = NULL;
+	buffer->size = 0;
+}
+
 void lobe_cl_buffers_release(lobe_cl_device *device)
 {
-	lobe_cl_buffer *all[LOBE_IN_COUNT + LOBE_OUT_COUNT + 2];
-	size_t n = 0, i;
-	for (i = 0; i < LOBE_IN_COUNT; i++)
-		all[n++] = &device->in[i];
-	for (i = 0; i < LOBE_OUT_COUNT; i++)
-		all[n++] = &device->out[i];
-	all[n++] = &device->material;
-	all[n++] = &device->order;
-	for (i = 0; i < n; i++) {
-		if (all[i]->mem)
-			device->cl->clReleaseMemObject(all[i]->mem);
+	int k, i;
+	for (k = 0; k < LOBE_CL_LANES; k++) {
+		lobe_cl_lane *const lane = &device->lane[k];
+		for (i = 0; i < LOBE_IN_COUNT; i++)
+			release(device, &lane->in[i]);
+		for (i = 0; i < LOBE_OUT_COUNT; i++)
+			release(device, &lane->out[i]);
+		release(device, &lane->material);
+		release(device, &lane->order);
 	}
 }
 
 /* The arguments of a kernel, set one after another. The first error stays. */
 typedef struct {
 	lobe_cl_device *device;
+	cl_command_queue queue;
 	cl_kernel kernel;
 	cl_uint next;
 	cl_int error;
@@ -55,6 +62,13 @@ static void put(arguments *a, const void *value, size_t size)
 {
 	if (a->error == CL_SUCCESS)
 		a->error = a->device->cl->clSetKernelArg(a->kernel, a->next++, size, value);
+}
+
+static arguments begin(const lobe_cl_shading *b, cl_kernel kernel)
+{
+	/* Arguments 0 and 1 are launch's. */
+	const arguments a = {b->device, b->lane->queue, kernel, 2, CL_SUCCESS};
+	return a;
 }
 
 static void put_mem(arguments *a, cl_mem mem) { put(a, &mem, sizeof mem); }
@@ -79,8 +93,7 @@ static lobe_status launch(arguments *a, size_t local, size_t first, size_t last)
 		put_ulong(a, first + count);
 		if (a->error != CL_SUCCESS)
 			return lobe_cl_fail("clSetKernelArg", a->error);
-		error = cl->clEnqueueNDRangeKernel(a->device->queue, a->kernel, 1, NULL, &global, &local, 0, NULL,
-						   NULL);
+		error = cl->clEnqueueNDRangeKernel(a->queue, a->kernel, 1, NULL, &global, &local, 0, NULL, NULL);
 		if (error != CL_SUCCESS)
 			return lobe_cl_fail("clEnqueueNDRangeKernel", error);
 		first += count;
@@ -102,10 +115,7 @@ static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t fir
 	status = lobe_cl_kernel_get(b->device, state->program, lobe, b->verb, how, &kernel);
 	if (status != LOBE_OK)
 		return status;
-	a.device = b->device;
-	a.kernel = kernel.kernel;
-	a.next = 2;
-	a.error = CL_SUCCESS;
+	a = begin(b, kernel.kernel);
 	put_mem(&a, state->table[lobe]);
 	if (lobe_is_tabled(lobe))
 		put_mem(&a, state->tables);
@@ -116,7 +126,7 @@ static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t fir
 	if (how != LOBE_CL_ONE)
 		put_mem(&a, b->material);
 	if (how == LOBE_CL_MIXED) {
-		put_mem(&a, b->device->order.mem);
+		put_mem(&a, b->lane->order.mem);
 		put_ulong(&a, base);
 	}
 	for (i = 0; i < LOBE_IN_COUNT; i++)
@@ -142,12 +152,9 @@ static lobe_status zero(const lobe_cl_shading *b, int how, size_t first, size_t 
 		arguments a;
 		if (!b->wanted[i])
 			continue;
-		a.device = b->device;
-		a.kernel = kernel.kernel;
-		a.next = 2;
-		a.error = CL_SUCCESS;
+		a = begin(b, kernel.kernel);
 		if (how == LOBE_CL_MIXED) {
-			put_mem(&a, b->device->order.mem);
+			put_mem(&a, b->lane->order.mem);
 			put_ulong(&a, base);
 		}
 		put_mem(&a, b->out[i]);
@@ -156,28 +163,25 @@ static lobe_status zero(const lobe_cl_shading *b, int how, size_t first, size_t 
 	return status;
 }
 
-/* Sorts elements [base, base + count) into device->order; begin as in lobe_sort_by_lobe. */
-static lobe_status sort(const lobe_cl_shading *b, const uint32_t *material, size_t base, size_t count, size_t *begin)
+/* Sorts elements [base, base + count) into lane->order; start as begin in lobe_sort_by_lobe. */
+static lobe_status sort(const lobe_cl_shading *b, const uint32_t *material, size_t base, size_t count, size_t *start)
 {
-	lobe_cl_device *const device = b->device;
-	const lobe_cl_functions *const cl = device->cl;
+	const lobe_cl_functions *const cl = b->device->cl;
+	lobe_cl_buffer *const kept = &b->lane->order;
 	cl_int error = CL_SUCCESS;
 	uint32_t *order;
-	const lobe_status status = lobe_cl_grow(device, &device->order, count);
+	const lobe_status status = lobe_cl_grow(b->device, kept, count);
 	if (status != LOBE_OK)
 		return status;
-	order = cl->clEnqueueMapBuffer(device->queue, device->order.mem, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0,
-				       count * 4, 0, NULL, NULL, &error);
+	order = cl->clEnqueueMapBuffer(b->lane->queue, kept->mem, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, count * 4,
+				       0, NULL, NULL, &error);
 	if (!order)
 		return lobe_cl_fail("clEnqueueMapBuffer", error);
-	lobe_sort_by_lobe(b->scene, material + base, count, order, begin);
-	error = cl->clEnqueueUnmapMemObject(device->queue, device->order.mem, order, 0, NULL, NULL);
+	lobe_sort_by_lobe(b->scene, material + base, count, order, start);
+	error = cl->clEnqueueUnmapMemObject(b->lane->queue, kept->mem, order, 0, NULL, NULL);
 	if (error == CL_SUCCESS)
 		return LOBE_OK;
-	/* It may still be mapped: the next batch gets a new one. */
-	cl->clReleaseMemObject(device->order.mem);
-	device->order.mem = NULL;
-	device->order.size = 0;
+	release(b->device, kept); /* It may still be mapped: the next batch gets a new one. */
 	return lobe_cl_fail("clEnqueueUnmapMemObject", error);
 }
 
@@ -185,21 +189,21 @@ static lobe_status sort(const lobe_cl_shading *b, const uint32_t *material, size
 static lobe_status shade_mixed(const lobe_cl_shading *b, const uint32_t *material, size_t count)
 {
 	const size_t limit = lobe_cl_smaller(LOBE_CL_LAUNCH_MAX, b->device->max_count);
-	size_t begin[LOBE_COUNT + 2];
+	size_t start[LOBE_COUNT + 2];
 	lobe_status status = LOBE_OK;
 	size_t base = 0;
 	int lobe;
 	while (base < count && status == LOBE_OK) {
 		const size_t n = lobe_cl_smaller(count - base, limit);
-		status = sort(b, material, base, n, begin);
+		status = sort(b, material, base, n, start);
 		for (lobe = 0; lobe < LOBE_COUNT && status == LOBE_OK; lobe++) {
-			if (begin[lobe + 1] - begin[lobe] == n)
+			if (start[lobe + 1] - start[lobe] == n)
 				status = shade(b, lobe, LOBE_CL_MANY, base, base + n, 0);
 			else
-				status = shade(b, lobe, LOBE_CL_MIXED, begin[lobe], begin[lobe + 1], base);
+				status = shade(b, lobe, LOBE_CL_MIXED, start[lobe], start[lobe + 1], base);
 		}
 		if (status == LOBE_OK)
-			status = zero(b, LOBE_CL_MIXED, begin[LOBE_INDEX_NONE], begin[LOBE_INDEX_NONE + 1], base);
+			status = zero(b, LOBE_CL_MIXED, start[LOBE_INDEX_NONE], start[LOBE_INDEX_NONE + 1], base);
 		base += n;
 	}
 	return status;
@@ -224,8 +228,8 @@ lobe_status lobe_cl_add_scratch(lobe_cl_shading *b, size_t count)
 	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
 		if (b->wanted[i] || !lobe_verb_writes(b->verb, i))
 			continue;
-		status = lobe_cl_grow(b->device, &b->device->out[i], count);
-		b->out[i] = b->device->out[i].mem;
+		status = lobe_cl_grow(b->device, &b->lane->out[i], count);
+		b->out[i] = b->lane->out[i].mem;
 	}
 	return status;
 }

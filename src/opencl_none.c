@@ -20,6 +20,12 @@ lobe_status lobe_opencl_open(lobe_device **out, size_t index)
 	return without_opencl("lobe_device_open");
 }
 
+lobe_status lobe_opencl_open_all(lobe_device **out)
+{
+	(void)out;
+	return without_opencl("lobe_device_open");
+}
+
 lobe_status lobe_device_open_cl(lobe_device **out, struct _cl_context *context, struct _cl_device_id *device,
 				struct _cl_command_queue *queue)
 {

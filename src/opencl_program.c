@@ -26,18 +26,11 @@ static lobe_status build_failed(lobe_cl_device *device, cl_program program, cl_i
 	return status;
 }
 
-static lobe_status build(lobe_cl_device *device, const char *options, cl_program *out)
+static lobe_status build_source(lobe_cl_device *device, const char *source[3], const char *options, cl_program *out)
 {
 	const lobe_cl_functions *const cl = device->cl;
-	const char *sources[3];
-	char run[64];
-	cl_program program;
 	cl_int error = CL_SUCCESS;
-	snprintf(run, sizeof run, "#define LOBE_RUN %lu\n", (unsigned long)device->run);
-	sources[0] = lobe_opencl_source();
-	sources[1] = run;
-	sources[2] = lobe_opencl_kernels();
-	program = cl->clCreateProgramWithSource(device->context, 3, sources, NULL, &error);
+	const cl_program program = cl->clCreateProgramWithSource(device->context, 3, source, NULL, &error);
 	if (!program)
 		return lobe_cl_fail("clCreateProgramWithSource", error);
 	error = cl->clBuildProgram(program, 1, &device->id, options, NULL, NULL);
@@ -48,6 +41,30 @@ static lobe_status build(lobe_cl_device *device, const char *options, cl_program
 	}
 	*out = program;
 	return LOBE_OK;
+}
+
+/* From the cache, else from source and into the cache. */
+static lobe_status build(lobe_cl_device *device, lobe_cl_program *p)
+{
+	const char *source[3];
+	char run[64];
+	lobe_status status = LOBE_OK;
+	snprintf(run, sizeof run, "#define LOBE_RUN %lu\n", (unsigned long)device->run);
+	source[0] = lobe_opencl_source();
+	source[1] = run;
+	source[2] = lobe_opencl_kernels();
+	lobe_cl_binary_find_key(device, p, source);
+	lobe_cl_binary_load(device, p);
+	if (!p->program) {
+		status = build_source(device, source, p->options, &p->program);
+		if (status == LOBE_OK && !p->grows)
+			lobe_cl_binary_store(device, p);
+	}
+	if (status != LOBE_OK || !p->grows) {
+		free(p->key);
+		p->key = NULL;
+	}
+	return status;
 }
 
 /* The device's program of these options, built when it is the first. */
@@ -66,7 +83,7 @@ static lobe_status get_program(lobe_cl_device *device, const char *options, lobe
 	if (!p)
 		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
 	memcpy(p->options, options, size);
-	status = build(device, options, &p->program);
+	status = build(device, p);
 	if (status != LOBE_OK) {
 		free(p);
 		return status;
@@ -80,6 +97,7 @@ static lobe_status get_program(lobe_cl_device *device, const char *options, lobe
 void lobe_cl_programs_release(lobe_cl_device *device)
 {
 	const lobe_cl_functions *const cl = device->cl;
+	lobe_cl_binaries_update(device);
 	while (device->programs) {
 		lobe_cl_program *const p = device->programs;
 		lobe_cl_kernel *const shade = &p->shade[0][0][0];
@@ -94,6 +112,7 @@ void lobe_cl_programs_release(lobe_cl_device *device)
 			cl->clReleaseKernel(p->zero_mixed.kernel);
 		cl->clReleaseProgram(p->program);
 		device->programs = p->next;
+		free(p->key);
 		free(p);
 	}
 }
@@ -135,8 +154,10 @@ lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program,
 		kept = &program->shade[lobe][verb][how];
 		snprintf(name, sizeof name, "lobe_kernel_%s_%s_%s", lobe_param_name[lobe], verbs[verb], hows[how]);
 	}
-	if (!kept->kernel)
+	if (!kept->kernel) {
 		status = make_kernel(device, program->program, name, kept);
+		program->outgrown = 1;
+	}
 	if (status == LOBE_OK)
 		*out = *kept;
 	return status;

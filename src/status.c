@@ -1,11 +1,12 @@
 /* status.c - names of statuses and this thread's error message. */
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "internal.h"
 
 /* Room for the head of an OpenCL build log. */
-static __thread char message[4096];
+static __thread char message[sizeof((lobe_message *)0)->text];
 
 const char *lobe_status_string(lobe_status status)
 {
@@ -29,6 +30,10 @@ const char *lobe_status_string(lobe_status status)
 }
 
 const char *lobe_error_message(void) { return message; }
+
+void lobe_message_get(lobe_message *out) { memcpy(out->text, message, strlen(message) + 1); }
+
+void lobe_message_set(const lobe_message *from) { memcpy(message, from->text, strlen(from->text) + 1); }
 
 void lobe_set_error_message(const char *format, ...)
 {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "support.h"
 
@@ -111,4 +112,25 @@ inputs inputs_extreme(void)
 		in.array[8][i] = number[u / NUMBERS / NUMBERS];
 	}
 	return in;
+}
+
+lobe_batch inputs_batch(inputs in, const uint32_t *material, float *out)
+{
+	const size_t n = in.count;
+	lobe_batch b;
+	memset(&b, 0, sizeof b);
+	b.count = n;
+	b.material = material;
+	for (size_t k = 0; k < 3; k++) {
+		b.wo[k] = in.array[k];
+		b.wi[k] = in.array[3 + k];
+		b.u[k] = in.array[6 + k];
+		b.f[k] = out + k * n;
+		b.sample_wi[k] = out + (4 + k) * n;
+		b.weight[k] = out + (7 + k) * n;
+	}
+	b.pdf = out + 3 * n;
+	b.sample_pdf = out + 10 * n;
+	b.event = (uint32_t *)(void *)(out + 11 * n);
+	return b;
 }

@@ -1,136 +1,17 @@
 /* test_opencl_faults.c - every OpenCL call fails in turn, the first time it is made, the second and so on: each failure
- * comes back as a status whose message names the call, nothing is leaked, and the next batch works.
- *
- * The library calls OpenCL through a table of functions (opencl_api.h); the test puts wrappers into it. */
-#define _POSIX_C_SOURCE 200809L
+ * comes back as a status whose message names the call, nothing is leaked, and the next batch works. */
+#define _XOPEN_SOURCE 700
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases.h"
+#include "cl_faults.h"
 #include "inputs.h"
+#include "internal.h"
 #include "lobe/lobe.h"
-#include "opencl_api.h"
 #include "unity.h"
 
 enum { N = 1003 };
-
-static lobe_cl_functions real;   /* OpenCL itself */
-static lobe_cl_functions *table; /* what the library calls */
-static const char *failing = ""; /* the call that fails ... */
-static long countdown;           /* ... when this gets to 0 */
-static cl_int failure;           /* ... with this code */
-static int discrete; /* the device pretends to be a GPU: memory of its own, and room for 777 elements in a buffer */
-static long live;    /* objects created and not released */
-
-/* 1 when this call is the one to fail. */
-static int fails(const char *name) { return strcmp(name, failing) == 0 && countdown-- == 0; }
-
-/* --- the wrappers ----------------------------------------------------------------------------------------------------- */
-
-#define CREATES(type, name, parameters, arguments)                                                                     \
-	static type wrap_##name parameters                                                                             \
-	{                                                                                                              \
-		if (fails(#name)) {                                                                                    \
-			if (error)                                                                                     \
-				*error = failure;                                                                      \
-			return NULL;                                                                                   \
-		}                                                                                                      \
-		type made = real.name arguments;                                                                       \
-		live += made != NULL;                                                                                  \
-		return made;                                                                                           \
-	}
-#define RELEASES(name, type)                                                                                           \
-	static cl_int wrap_##name(type object)                                                                         \
-	{                                                                                                              \
-		live--;                                                                                                \
-		return real.name(object);                                                                              \
-	}
-#define RETAINS(name, type)                                                                                            \
-	static cl_int wrap_##name(type object)                                                                         \
-	{                                                                                                              \
-		if (fails(#name))                                                                                      \
-			return failure;                                                                                \
-		live++;                                                                                                \
-		return real.name(object);                                                                              \
-	}
-#define DOES(name, parameters, arguments)                                                                              \
-	static cl_int wrap_##name parameters { return fails(#name) ? failure : real.name arguments; }
-
-CREATES(cl_context, clCreateContext,
-	(const cl_context_properties *p, cl_uint n, const cl_device_id *d,
-	 void (*notify)(const char *, const void *, size_t, void *), void *user, cl_int *error),
-	(p, n, d, notify, user, error))
-CREATES(cl_command_queue, clCreateCommandQueue, (cl_context c, cl_device_id d, cl_bitfield p, cl_int *error),
-	(c, d, p, error))
-CREATES(cl_program, clCreateProgramWithSource,
-	(cl_context c, cl_uint n, const char **s, const size_t *l, cl_int *error), (c, n, s, l, error))
-CREATES(cl_kernel, clCreateKernel, (cl_program p, const char *name, cl_int *error), (p, name, error))
-CREATES(cl_mem, clCreateBuffer, (cl_context c, cl_bitfield f, size_t n, void *p, cl_int *error), (c, f, n, p, error))
-RETAINS(clRetainContext, cl_context)
-RETAINS(clRetainCommandQueue, cl_command_queue)
-RETAINS(clRetainDevice, cl_device_id)
-RELEASES(clReleaseContext, cl_context)
-RELEASES(clReleaseCommandQueue, cl_command_queue)
-RELEASES(clReleaseDevice, cl_device_id)
-RELEASES(clReleaseProgram, cl_program)
-RELEASES(clReleaseKernel, cl_kernel)
-RELEASES(clReleaseMemObject, cl_mem)
-DOES(clGetPlatformIDs, (cl_uint n, cl_platform_id *p, cl_uint *m), (n, p, m))
-DOES(clGetPlatformInfo, (cl_platform_id p, cl_uint w, size_t n, void *v, size_t *m), (p, w, n, v, m))
-DOES(clGetDeviceIDs, (cl_platform_id p, cl_bitfield t, cl_uint n, cl_device_id *d, cl_uint *m), (p, t, n, d, m))
-static cl_int wrap_clGetDeviceInfo(cl_device_id d, cl_uint what, size_t n, void *value, size_t *size)
-{
-	const cl_bool no = CL_FALSE;
-	const cl_bitfield gpu = (cl_bitfield)1 << 2;
-	const cl_ulong room = 4 * 777;
-	if (fails("clGetDeviceInfo"))
-		return failure;
-	const cl_int error = real.clGetDeviceInfo(d, what, n, value, size);
-	if (discrete && error == CL_SUCCESS && value) {
-		if (what == CL_DEVICE_HOST_UNIFIED_MEMORY)
-			memcpy(value, &no, sizeof no);
-		else if (what == CL_DEVICE_TYPE)
-			memcpy(value, &gpu, sizeof gpu);
-		else if (what == CL_DEVICE_MAX_MEM_ALLOC_SIZE)
-			memcpy(value, &room, sizeof room);
-	}
-	return error;
-}
-DOES(clBuildProgram,
-     (cl_program p, cl_uint n, const cl_device_id *d, const char *o, void (*notify)(cl_program, void *), void *u),
-     (p, n, d, o, notify, u))
-DOES(clSetKernelArg, (cl_kernel k, cl_uint i, size_t n, const void *v), (k, i, n, v))
-DOES(clGetKernelWorkGroupInfo, (cl_kernel k, cl_device_id d, cl_uint w, size_t n, void *v, size_t *m),
-     (k, d, w, n, v, m))
-DOES(clEnqueueReadBuffer,
-     (cl_command_queue q, cl_mem b, cl_bool w, size_t o, size_t n, void *p, cl_uint c, const cl_event *l, cl_event *e),
-     (q, b, w, o, n, p, c, l, e))
-DOES(clEnqueueWriteBuffer,
-     (cl_command_queue q, cl_mem b, cl_bool w, size_t o, size_t n, const void *p, cl_uint c, const cl_event *l,
-      cl_event *e),
-     (q, b, w, o, n, p, c, l, e))
-DOES(clEnqueueNDRangeKernel,
-     (cl_command_queue q, cl_kernel k, cl_uint d, const size_t *o, const size_t *g, const size_t *l, cl_uint c,
-      const cl_event *w, cl_event *e),
-     (q, k, d, o, g, l, c, w, e))
-DOES(clEnqueueUnmapMemObject, (cl_command_queue q, cl_mem b, void *p, cl_uint c, const cl_event *w, cl_event *e),
-     (q, b, p, c, w, e))
-DOES(clFlush, (cl_command_queue q), (q))
-DOES(clGetMemObjectInfo, (cl_mem b, cl_uint w, size_t n, void *v, size_t *m), (b, w, n, v, m))
-DOES(clFinish, (cl_command_queue q), (q))
-
-/* Mapping makes no object: it is undone by unmapping. */
-static void *wrap_clEnqueueMapBuffer(cl_command_queue q, cl_mem b, cl_bool w, cl_bitfield f, size_t o, size_t n,
-				     cl_uint c, const cl_event *l, cl_event *e, cl_int *error)
-{
-	if (fails("clEnqueueMapBuffer")) {
-		if (error)
-			*error = failure;
-		return NULL;
-	}
-	return real.clEnqueueMapBuffer(q, b, w, f, o, n, c, l, e, error);
-}
 
 /* A call to fail, and whether the library may carry on without it (a question about the device, say). */
 static const struct {
@@ -146,6 +27,8 @@ static const struct {
 	{"clRetainDevice", 1},
 	{"clCreateProgramWithSource", 0},
 	{"clBuildProgram", 0},
+	{"clCreateProgramWithBinary", 1},
+	{"clGetProgramInfo", 1},
 	{"clCreateKernel", 0},
 	{"clCreateBuffer", 0},
 	{"clSetKernelArg", 0},
@@ -160,6 +43,7 @@ static const struct {
 	{"clGetMemObjectInfo", 0},
 };
 
+static int cached; /* programs come from the cache, and without it from source */
 static int reached_times[sizeof calls / sizeof *calls];
 
 /* --- one life of a device: open, scene, batch ------------------------------------------------------------------------- */
@@ -179,7 +63,7 @@ static lobe_status eval_on_buffers(lobe_device *device, lobe_scene *scene)
 	if (status != LOBE_OK)
 		return status;
 	for (int k = 0; k < 7; k++)
-		buffer[k] = real.clCreateBuffer(context, CL_MEM_READ_WRITE | (k < 6 ? CL_MEM_COPY_HOST_PTR : 0), N * 4,
+		buffer[k] = cl_faults.real.clCreateBuffer(context, CL_MEM_READ_WRITE | (k < 6 ? CL_MEM_COPY_HOST_PTR : 0), N * 4,
 						k < 6 ? in.array[k] : NULL, NULL);
 	memset(&b, 0, sizeof b);
 	b.count = N;
@@ -190,7 +74,7 @@ static lobe_status eval_on_buffers(lobe_device *device, lobe_scene *scene)
 	b.pdf = buffer[6];
 	status = lobe_scene_eval_cl(scene, &b);
 	for (int k = 0; k < 7; k++)
-		real.clReleaseMemObject(buffer[k]);
+		cl_faults.real.clReleaseMemObject(buffer[k]);
 	return status;
 }
 
@@ -199,21 +83,7 @@ static lobe_status live_on(const char *name)
 {
 	lobe_device *device;
 	lobe_scene *scene;
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = N;
-	b.material = material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = in.array[k];
-		b.wi[k] = in.array[3 + k];
-		b.u[k] = in.array[6 + k];
-		b.f[k] = out[k];
-		b.sample_wi[k] = out[4 + k];
-		b.weight[k] = out[7 + k];
-	}
-	b.pdf = out[3];
-	b.sample_pdf = out[10];
-	b.event = (uint32_t *)(void *)out[11];
+	const lobe_batch b = inputs_batch(in, material, out[0]);
 	lobe_status status = lobe_device_open(&device, name);
 	if (status != LOBE_OK)
 		return status;
@@ -237,42 +107,8 @@ void tearDown(void) {}
 
 static void install(void)
 {
-	size_t count = 0;
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_count("opencl", &count));
-	if (count == 0)
+	if (!cl_faults_install())
 		TEST_IGNORE_MESSAGE("no OpenCL device");
-	table = (lobe_cl_functions *)(uintptr_t)lobe_cl_load();
-	real = *table;
-#define WRAP(name) table->name = wrap_##name
-	WRAP(clCreateContext);
-	WRAP(clCreateCommandQueue);
-	WRAP(clCreateProgramWithSource);
-	WRAP(clCreateKernel);
-	WRAP(clCreateBuffer);
-	WRAP(clRetainContext);
-	WRAP(clRetainCommandQueue);
-	WRAP(clRetainDevice);
-	WRAP(clReleaseContext);
-	WRAP(clReleaseCommandQueue);
-	WRAP(clReleaseDevice);
-	WRAP(clReleaseProgram);
-	WRAP(clReleaseKernel);
-	WRAP(clReleaseMemObject);
-	WRAP(clGetPlatformIDs);
-	WRAP(clGetPlatformInfo);
-	WRAP(clGetDeviceIDs);
-	WRAP(clGetDeviceInfo);
-	WRAP(clBuildProgram);
-	WRAP(clSetKernelArg);
-	WRAP(clGetKernelWorkGroupInfo);
-	WRAP(clEnqueueReadBuffer);
-	WRAP(clEnqueueWriteBuffer);
-	WRAP(clEnqueueNDRangeKernel);
-	WRAP(clEnqueueUnmapMemObject);
-	WRAP(clEnqueueMapBuffer);
-	WRAP(clFlush);
-	WRAP(clGetMemObjectInfo);
-	WRAP(clFinish);
 	in = inputs_alloc(N);
 	inputs_random(in, 8000000);
 	materials[0] = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.5f, 0.5f, 0.5f)));
@@ -287,19 +123,19 @@ static void install(void)
 	TEST_ASSERT_EQUAL_MEMORY(expected, out, sizeof expected);
 }
 
-static void test_nothing_leaks(void) { TEST_ASSERT_EQUAL_MESSAGE(0, live, "objects created and not released"); }
+static void test_nothing_leaks(void) { TEST_ASSERT_EQUAL_MESSAGE(0, cl_faults.live, "objects created and not released"); }
 
 static void fail_each(cl_int code, int check_memory)
 {
-	failure = code;
+	cl_faults.failure = code;
 	for (size_t c = 0; c < sizeof calls / sizeof *calls; c++) {
 		int failed = 0, made = 0;
-		failing = calls[c].name;
+		cl_faults.failing = calls[c].name;
 		/* The first few calls of this name, then later ones further apart. */
 		for (long at = 0; at < 64; at += at < 6 ? 1 : at) {
-			countdown = at;
+			cl_faults.countdown = at;
 			const lobe_status status = live_once();
-			const int reached = countdown < 0;
+			const int reached = cl_faults.countdown < 0;
 			made += reached;
 			reached_times[c] += reached;
 			if (!reached) {
@@ -308,37 +144,168 @@ static void fail_each(cl_int code, int check_memory)
 			}
 			failed += status != LOBE_OK;
 			if (status == LOBE_OK) {
-				TEST_ASSERT_TRUE_MESSAGE(calls[c].may_succeed, failing);
+				const int build = strcmp(cl_faults.failing, "clBuildProgram") == 0;
+				TEST_ASSERT_TRUE_MESSAGE(calls[c].may_succeed || (build && cached), cl_faults.failing);
 			} else {
-				const int build = strcmp(failing, "clBuildProgram") == 0;
+				const int build = strcmp(cl_faults.failing, "clBuildProgram") == 0;
 				const lobe_status right =
 					check_memory ? LOBE_ERROR_MEMORY : (build ? LOBE_ERROR_BUILD : status);
 				TEST_ASSERT_EQUAL_STRING(lobe_status_string(right), lobe_status_string(status));
-				TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), failing),
+				TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), cl_faults.failing),
 							     lobe_error_message());
 			}
-			TEST_ASSERT_EQUAL_MESSAGE(0, live, failing);
+			TEST_ASSERT_EQUAL_MESSAGE(0, cl_faults.live, cl_faults.failing);
 		}
-		printf("  %-28s failed %d of %d times\n", failing, failed, made);
+		printf("  %-28s failed %d of %d times\n", cl_faults.failing, failed, made);
 		/* The library is as good as before. */
-		failing = "";
+		cl_faults.failing = "";
 		memset(out, 0, sizeof out);
 		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_once(), lobe_error_message());
 		TEST_ASSERT_EQUAL_MEMORY(expected, out, sizeof expected);
-		TEST_ASSERT_EQUAL(0, live);
+		TEST_ASSERT_EQUAL(0, cl_faults.live);
 	}
 }
 
 /* The path of a device with memory of its own: copies in and out, in rounds, one work-item for each element. */
 static void test_discrete_memory(void)
 {
-	discrete = 1;
+	cl_faults.discrete = 1;
+	cl_faults.room = 4 * 777;
 	memset(out, 0xee, sizeof out);
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_once(), lobe_error_message());
 	TEST_ASSERT_EQUAL_MEMORY(expected, out, sizeof expected);
-	TEST_ASSERT_EQUAL(0, live);
+	TEST_ASSERT_EQUAL(0, cl_faults.live);
 	fail_each(CL_INVALID_VALUE, 0);
-	discrete = 0;
+	cl_faults.discrete = 0;
+	cl_faults.room = 0;
+}
+
+/* Programs from the cache. A call that fails on the way there leads back to the source. */
+static void test_cache(void)
+{
+	char folder[] = "/tmp/lobe-faults-XXXXXX", path[64];
+	TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+	snprintf(path, sizeof path, "%s/cache", folder);
+	setenv("LOBE_CACHE_DIR", path, 1);
+	cached = 1;
+	fail_each(CL_INVALID_VALUE, 0);
+	cached = 0;
+	setenv("LOBE_CACHE_DIR", "", 1);
+	snprintf(path, sizeof path, "rm -r %s", folder);
+	TEST_ASSERT_EQUAL(0, system(path));
+}
+
+/* --- large batches on devices with memory of their own ------------------------------------------------------------- */
+
+enum { LARGE = 200000 };
+static const size_t large_size = INPUTS_OUTPUTS * LARGE * sizeof(float);
+static inputs large;
+static uint32_t *large_material;
+static float *large_out, *large_expected;
+
+/* mixed: by material; else the first material throughout. only_pdf: few of the outputs, the rest is scratch. */
+static void shade_large(const char *name, float *to, int mixed, int only_pdf)
+{
+	lobe_device *device;
+	lobe_scene *scene;
+	lobe_batch b = inputs_batch(large, mixed ? large_material : NULL, to);
+	if (only_pdf)
+		for (int k = 0; k < 3; k++)
+			b.weight[k] = b.sample_wi[k] = NULL;
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_device_open(&device, name), lobe_error_message());
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_create(&scene, device, materials, 3), lobe_error_message());
+	cl_faults.counted = 0;
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(scene, &b), lobe_error_message());
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_sample(scene, &b), lobe_error_message());
+	lobe_scene_destroy(scene);
+	lobe_device_close(device);
+}
+
+static void compare_large(void)
+{
+	for (int mixed = 0; mixed < 2; mixed++)
+		for (int only_pdf = 0; only_pdf < 2; only_pdf++) {
+			memset(large_out, 0xee, large_size);
+			memset(large_expected, 0xee, large_size);
+			shade_large("native", large_expected, mixed, only_pdf);
+			cl_faults.used = cl_faults.largest = 0;
+			shade_large("opencl", large_out, mixed, only_pdf);
+			TEST_ASSERT_EQUAL_MEMORY(large_expected, large_out, large_size);
+			TEST_ASSERT_EQUAL(0, cl_faults.live);
+			TEST_ASSERT_EQUAL_STRING("", lobe_error_message());
+		}
+}
+
+static void prepare_large(void)
+{
+	large = inputs_alloc(LARGE);
+	inputs_random(large, 7000000);
+	large_material = malloc(LARGE * sizeof *large_material);
+	TEST_ASSERT_NOT_NULL(large_material);
+	for (uint32_t i = 0; i < LARGE; i++)
+		large_material[i] = (i / 7 + i) % 3;
+	large_out = malloc(large_size);
+	large_expected = malloc(large_size);
+	TEST_ASSERT_NOT_NULL(large_out);
+	TEST_ASSERT_NOT_NULL(large_expected);
+	lobe_set_error_message("%s", ""); /* nothing below sets it */
+}
+
+/* Four chunks on two queues, and no wait but the last one for each queue. */
+static void test_chunks_overlap(void)
+{
+	cl_faults.discrete = 1;
+	cl_faults.counting = "clFinish";
+	compare_large();
+	TEST_ASSERT_EQUAL_MESSAGE(2 * 2, cl_faults.counted, "two calls, two queues");
+	TEST_ASSERT_EQUAL_MESSAGE(4 * LARGE / 4, cl_faults.largest, "bytes of a chunk's array");
+	cl_faults.counting = "";
+	cl_faults.discrete = 0;
+}
+
+/* Memory for a fraction of the batch: the two lanes take no more than half of it. */
+static void test_little_memory(void)
+{
+	cl_faults.discrete = 1;
+	cl_faults.memory = cl_faults.free = 4000000;
+	compare_large();
+	TEST_ASSERT_GREATER_THAN(1000000, cl_faults.used);
+	TEST_ASSERT_LESS_OR_EQUAL(2000000 + 10000, cl_faults.used); /* and the scene's tables */
+	cl_faults.memory = cl_faults.free = 0;
+	cl_faults.discrete = 0;
+}
+
+/* No buffer may be larger than a fraction of the batch, whichever memory it is in. */
+static void test_small_buffers(void)
+{
+	for (int discrete = 0; discrete < 2; discrete++) {
+		cl_faults.discrete = discrete;
+		cl_faults.room = 4 * 30011;
+		compare_large();
+		TEST_ASSERT_GREATER_THAN(4 * 20000, cl_faults.largest);
+		TEST_ASSERT_LESS_OR_EQUAL(4 * 30011, cl_faults.largest);
+	}
+	cl_faults.room = 0;
+	cl_faults.discrete = 0;
+}
+
+/* Other programs have taken most of the memory: chunks get smaller until they fit. When nothing fits, it is said. */
+static void test_memory_taken(void)
+{
+	cl_faults.discrete = 1;
+	cl_faults.free = 2000000;
+	compare_large();
+	TEST_ASSERT_LESS_OR_EQUAL(2000000, cl_faults.used);
+	cl_faults.discrete = 0;
+	cl_faults.free = 200000; /* for what is not wanted, and the order */
+	compare_large();
+	cl_faults.discrete = 1;
+	cl_faults.free = 20000;
+	TEST_ASSERT_EQUAL_STRING("LOBE_ERROR_MEMORY", lobe_status_string(live_on("opencl")));
+	TEST_ASSERT_EQUAL(0, cl_faults.live);
+	lobe_set_error_message("%s", "");
+	cl_faults.free = 0;
+	cl_faults.discrete = 0;
 }
 
 /* Each call is reached on one of the two paths at least. */
@@ -357,29 +324,37 @@ static cl_int build_nonsense(cl_program p, cl_uint n, const cl_device_id *d, con
 {
 	char options[4096];
 	snprintf(options, sizeof options, "%s -DLOBE_FN=nonsense", o);
-	return real.clBuildProgram(p, n, d, options, notify, u);
+	return cl_faults.real.clBuildProgram(p, n, d, options, notify, u);
 }
 
 static void test_build_log(void)
 {
-	table->clBuildProgram = build_nonsense;
+	lobe_cl_functions before = *cl_faults.table;
+	cl_faults.table->clBuildProgram = build_nonsense;
 	TEST_ASSERT_EQUAL_STRING("LOBE_ERROR_BUILD", lobe_status_string(live_once()));
 	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), "error:"), lobe_error_message());
-	table->clBuildProgram = wrap_clBuildProgram;
-	TEST_ASSERT_EQUAL(0, live);
+	*cl_faults.table = before;
+	TEST_ASSERT_EQUAL(0, cl_faults.live);
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_once(), lobe_error_message());
 }
 
 int main(void)
 {
+	setenv("LOBE_CACHE_DIR", "", 1);
 	UNITY_BEGIN();
 	RUN_TEST(install);
-	if (table) { /* else there is no OpenCL device, as install said */
+	if (cl_faults.table) { /* else there is no OpenCL device, as install said */
 		RUN_TEST(test_nothing_leaks);
 		RUN_TEST(test_each_call_fails);
 		RUN_TEST(test_out_of_memory);
 		RUN_TEST(test_build_log);
 		RUN_TEST(test_discrete_memory);
+		RUN_TEST(test_cache);
+		RUN_TEST(prepare_large);
+		RUN_TEST(test_chunks_overlap);
+		RUN_TEST(test_little_memory);
+		RUN_TEST(test_small_buffers);
+		RUN_TEST(test_memory_taken);
 		RUN_TEST(test_every_call_was_reached);
 	}
 	return UNITY_END();

@@ -25,7 +25,7 @@ static int loaded(const char *library)
 	return found;
 }
 
-static void shade_natively(void)
+static void shade_on(const char *name)
 {
 	const lobe_bsdf white = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(1, 1, 1)));
 	const float x[1] = {0.0f}, z[1] = {1.0f};
@@ -38,7 +38,7 @@ static void shade_natively(void)
 	b.wo[0] = b.wo[1] = b.wi[0] = b.wi[1] = x;
 	b.wo[2] = b.wi[2] = z;
 	b.pdf = pdf;
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, "native"));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, name));
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&scene, device, &white, 1));
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(scene, &b));
 	TEST_ASSERT_EQUAL_FLOAT(0.31830989f, pdf[0]);
@@ -48,7 +48,7 @@ static void shade_natively(void)
 
 static void test_native_loads_no_opencl(void)
 {
-	shade_natively();
+	shade_on("native");
 	TEST_ASSERT_FALSE(loaded("libOpenCL"));
 }
 
@@ -62,7 +62,12 @@ static void test_no_device(void)
 	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), "OpenCL"), lobe_error_message());
 	printf("the message: %s\n", lobe_error_message());
 	TEST_ASSERT_NULL(device);
-	shade_natively();
+	TEST_ASSERT_EQUAL(LOBE_ERROR_DEVICE, lobe_device_open(&device, "opencl:all"));
+	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), "OpenCL"), lobe_error_message());
+	TEST_ASSERT_NULL(device);
+	shade_on("native");
+	shade_on("opencl,native");
+	shade_on("opencl:all,native");
 }
 
 int main(void)

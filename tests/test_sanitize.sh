@@ -23,17 +23,17 @@ clean() {
 		UBSAN_OPTIONS=print_stacktrace=1 "$out/tests/$1"
 }
 
-for program in test_batch test_strides test_vectors test_opencl test_opencl_none test_opencl_faults test_core test_real test_warp test_fresnel \
-	test_ggx test_linear test_slopes test_lobes_extremes; do
+for program in test_batch test_strides test_async test_vectors test_opencl test_opencl_none test_opencl_faults test_opencl_cache \
+	test_core test_real test_warp test_fresnel test_ggx test_linear test_slopes test_lobes_extremes; do
 	check "$program builds" sanitized $program
 	check "$program runs clean" clean $program
 done
 
 # Data races in the thread pool and the devices.
 raceless() {
-	make -s -j2 B=$out/threads CFLAGS="-O1 -g -fsanitize=thread" "$out/threads/tests/test_batch" && "$out/threads/tests/test_batch"
+	make -s -j2 B=$out/threads CFLAGS="-O1 -g -fsanitize=thread" "$out/threads/tests/$1" && "$out/threads/tests/$1" native
 }
-check "test_batch has no data race" raceless
+for program in test_batch test_async; do check "$program has no data race" raceless $program; done
 
 # A planted overflow is reported.
 printf '#include <stdlib.h>\nint main(void) { volatile char *p = malloc(4); return p[4]; }\n' >$out/planted.c

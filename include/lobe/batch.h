@@ -61,6 +61,19 @@ LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
  *	"native:N"   N threads, 1 to 1024
  *	"opencl"     the first OpenCL device (the same as "opencl:0")
  *	"opencl:N"   OpenCL device N, counted over all platforms
+ *	"opencl:all" every OpenCL device that can be used, as one: a batch is split between them
+ *	"opencl,native", "opencl:N,native:N", "opencl:all,native" and so on: what the OpenCL device fails to do is done
+ *	             on the native one
+ *
+ * "opencl:all" gives each device an equal part of a scene's first batch of a kind, and then parts in proportion to the
+ * speed that was measured; a batch of fewer than 1024 elements for each device goes to the fastest. Results do not depend
+ * on it. A device that fails fails the batch, and the message names it. Devices that could not be opened are left out.
+ *
+ * With ",native" a batch that fails on the OpenCL device, lost in its middle say, runs natively from its beginning, and
+ * the caller sees nothing but the right results. A device that failed is not asked again (lobe_device_lost), unless it was
+ * short of memory; the same goes for a program that does not build, and for a device that cannot be opened in the first
+ * place. Such a device takes no cl_mem, nor does "opencl:all".
+ *
  * A native device runs the widest instruction set of "baseline", "avx2" and "avx512" that was compiled in and that the
  * processor has; the environment variable LOBE_ISA names a narrower one. Results do not depend on it. */
 LOBE_API lobe_status lobe_device_open(lobe_device **out, const char *name);
@@ -68,11 +81,21 @@ LOBE_API lobe_status lobe_device_open(lobe_device **out, const char *name);
 /* What the device is, for people: "native, avx2, 2 threads", "opencl:0, PLATFORM, DEVICE". Valid until it is closed. */
 LOBE_API const char *lobe_device_name(const lobe_device *device);
 
+/* Null while the device does as its name says, and for devices without ",native". Why the native one has taken over for
+ * good, otherwise. Valid until the device is closed. */
+LOBE_API const char *lobe_device_lost(const lobe_device *device);
+
 /* Releases the device. Its scenes must have been destroyed before. Null does nothing. */
 LOBE_API void lobe_device_close(lobe_device *device);
 
 /* Takes a copy of materials[0..count), each checked field by field, and prepares the device for the kinds of lobe in it
- * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds. */
+ * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds.
+ *
+ * Built OpenCL programs are kept between runs in a folder: $LOBE_CACHE_DIR, else $XDG_CACHE_HOME/lobe, else ~/.cache/lobe;
+ * LOBE_CACHE_DIR="" keeps none. They are found by source, options, device and driver. A file that is damaged, not the
+ * user's own or refused by the driver is passed over, a folder that cannot be written does no harm, and what has not been
+ * used for longest goes when all exceed 64 MiB. Processes may share the folder. PoCL has a cache of its own, and takes
+ * longer to hand out a binary than to build a program: there ours is used only when LOBE_CACHE_DIR is set. */
 LOBE_API lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count);
 
 /* Null does nothing. */
@@ -102,7 +125,8 @@ typedef struct {
  * A native device takes strided elements a block at a time through the first-level cache; an OpenCL device gets them
  * packed by the host, part by part.
  *
- * count 0 is allowed and does nothing. Inputs of one element never affect another's result. */
+ * count 0 is allowed and does nothing. A batch may be larger than an OpenCL device's memory, or than the part of it that is
+ * free: it goes through in chunks. Inputs of one element never affect another's result. */
 typedef struct {
 	size_t count;
 	const uint32_t *material;          /* index into the scene's materials, or NULL: material 0 for every element */
@@ -118,6 +142,29 @@ LOBE_API lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch)
 
 /* sample_wi, weight, sample_pdf and event, whichever are asked for. At least one must be. */
 LOBE_API lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch);
+
+/* A batch that runs behind the caller. */
+typedef struct lobe_event lobe_event;
+
+/* lobe_scene_eval and lobe_scene_sample that return before the results are there. Arguments are checked at once, and what
+ * is wrong with them is this call's status; what fails later is the status of lobe_event_wait. Until the batch is done its
+ * arrays must stay, inputs unchanged, and so must the scene; lobe_batch itself is copied.
+ *
+ * A device runs such batches one after another in the order in which they were given, on a thread of its own that the
+ * first one starts, and in turn with plain calls from other threads; any number may be waiting. Batches given to several
+ * devices run at the same time. On an OpenCL device with memory of its own, the copies of one part of a large batch go on
+ * beside the kernels of another, here and in plain calls. */
+LOBE_API lobe_status lobe_scene_eval_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out);
+LOBE_API lobe_status lobe_scene_sample_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out);
+
+/* Waits until the batch is done. Its status, and after a failure its message; the same every time, from any thread. */
+LOBE_API lobe_status lobe_event_wait(lobe_event *event);
+
+/* 1 once the batch is done, 0 before. */
+LOBE_API int lobe_event_done(lobe_event *event);
+
+/* Waits until the batch is done and frees the event. Null does nothing. */
+LOBE_API void lobe_event_release(lobe_event *event);
 
 /* --- OpenCL ---------------------------------------------------------------------------------------------------- */
 
