@@ -249,6 +249,19 @@ bench:
 	@$(B)/bench/strategies
 	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
 
+FIGURES := $(wildcard bench/figures/*.c) bench/machine.c bench/scenes.c
+$(B)/bench/figures: $(FIGURES) $(wildcard bench/*.h bench/figures/*.h) $(B)/liblobe.a | $(B)/bench
+	@echo "  link  $@"
+	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(FIGURES) $(B)/liblobe.a -o $@ $(LIBS)
+
+# The figures of the microfacet papers, from the library's own functions.
+figures:
+	@./deps.sh all
+	+@$(MAKE) --no-print-directory $(JOBS) $(B)/bench/figures
+	@$(B)/bench/figures
+	@gnuplot bench/figures/figures.gp
+	@echo "out/figures: $$(ls out/figures/*.png | wc -l) figures"
+
 check:
 	@./deps.sh all
 	@tests/check.sh
@@ -287,6 +300,7 @@ help:
 		'make test       every test; the last line counts them' \
 		'make test-long  the slow sweeps too (an hour)' \
 		'make bench      throughput, its ceilings and scaling, build times, what pruning saves; out/bench/*.csv' \
+		'make figures    D, G1, masking, albedo, visible normals: out/figures/*.png' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \
@@ -294,7 +308,7 @@ help:
 		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: FORCE all run test test-long vectors bench check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench figures check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)
