@@ -318,7 +318,8 @@ static void test_reciprocity(void)
 				continue;
 			/* 32 roundings, each of half an ulp. */
 			const double film = across ? case_film_condition(c) : 1.0;
-			const double condition = film * (1.0 + index_condition(c, wo, wi) + index_condition(c, wi, wo));
+			const double condition = film * (1.0 + index_condition(c, wo, wi) + index_condition(c, wi, wo) +
+							cavity_condition(c, wo, wi));
 			const double off = fabs(l - r) / big;
 			const double ratio = off / (0.5 * ULP * condition);
 			if (condition > 1e5)
