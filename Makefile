@@ -178,6 +178,10 @@ bench:
 	@$(B)/bench/throughput
 	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
 
+# Mitsuba 3 beside lobe, in turn; skipped, with a word why, where it cannot be installed. OPTIONS: of bench/peers/mitsuba.py.
+bench-peers: $(B)/bench/throughput
+	@bench/peers/mitsuba.sh $(OPTIONS)
+
 check:
 	@./deps.sh all
 	@tests/check.sh
@@ -216,13 +220,14 @@ help:
 		'make test       every test; the last line counts them' \
 		'make test-long  the slow sweeps too (an hour)' \
 		'make bench      throughput, build times, what pruning saves; out/bench/*.csv' \
+		'make bench-peers  Mitsuba 3 beside lobe (installs it in build/peers); out/bench/peers.csv' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \
 		'make install    PREFIX=/usr/local DESTDIR=' \
 		'make clean      removes build/ and out/'
 
-.PHONY: all run test test-long vectors bench check deps install clean help
+.PHONY: all run test test-long vectors bench bench-peers check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)

@@ -159,7 +159,8 @@ static void test_pdf_agrees_where_peers_disagree(void)
 		const lobe_real a = (lobe_real)peers[i].alpha;
 		const double s = sqrt((1.0 - peers[i].cos_o) * (1.0 + peers[i].cos_o));
 		const lobe_vec3 wo = lobe_vec3_make((float)(0.8 * s), (float)(0.6 * s), (float)peers[i].cos_o);
-		test_case c = {peers[i].name, 0, {0}, {0}, 0, peers[i].alpha, peers[i].alpha, peers[i].eta};
+		test_case c = {
+			peers[i].name, 0, {0}, {0}, 0, peers[i].alpha, peers[i].alpha, peers[i].eta, TEXTBOOK_GGX};
 		c.bsdf =
 			peers[i].eta > 0.0
 				? lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(a, a, (lobe_real)peers[i].eta))
@@ -253,6 +254,15 @@ static double index_condition(const test_case *c, lobe_vec3 wo, lobe_vec3 wi)
 	return (4.0 * slope / q + 1.0 / oh + 1.0 / ih) * fmax(1.0, e) + tir + e / fabs(e - 1.0);
 }
 
+static lobe_bsdf with_transport(lobe_bsdf b, lobe_uint transport)
+{
+	if (b.kind == LOBE_KIND_GGX_DIELECTRIC)
+		b.as.ggx_dielectric = lobe_ggx_dielectric_transport(b.as.ggx_dielectric, transport);
+	if (b.kind == LOBE_KIND_BECKMANN_DIELECTRIC)
+		b.as.beckmann_dielectric = lobe_beckmann_dielectric_transport(b.as.beckmann_dielectric, transport);
+	return b;
+}
+
 /* f(wo,wi) n_i^2 = f(wi,wo) n_o^2 for radiance, and the importance of one way is the radiance of the other. */
 static void test_reciprocity(void)
 {
@@ -285,9 +295,8 @@ static void test_reciprocity(void)
 				/* Every other pair tests the two transports against each other. */
 				if (!radiance || (j & 2u)) {
 					const lobe_bsdf other =
-						lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_transport(
-							c->bsdf.as.ggx_dielectric, radiance ? LOBE_TRANSPORT_IMPORTANCE
-											    : LOBE_TRANSPORT_RADIANCE));
+						with_transport(c->bsdf, radiance ? LOBE_TRANSPORT_IMPORTANCE
+										 : LOBE_TRANSPORT_RADIANCE);
 					back = lobe_bsdf_eval(other, wi, wo);
 					no = ni = 1.0;
 				}

@@ -143,7 +143,7 @@ static void test_ends_of_the_parameters(void)
 	static const float etas[] = {1e-3f,         1.0f / 3.0f,   0x1.ffffdep-1f, 0x1.fffffep-1f, 1.0f,
 				     0x1.000002p0f, 0x1.000010p0f, 1.0001f,        1.5f,           1000.0f};
 	static const float indices[] = {1e-3f, 1.0f, 3.0f, 1000.0f};
-	test_case c = {"end of a parameter", 0, {0}, {0}, 0, 0, 0, 0};
+	test_case c = {"end of a parameter", 0, {0}, {0}, 0, 0, 0, 0, TEXTBOOK_GGX};
 	evaluations = samples = kept = bad = 0;
 	for (size_t a = 0; a < 25; a++) {
 		const float ax = alphas[a % 5], ay = alphas[a / 5];

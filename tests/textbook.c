@@ -84,7 +84,8 @@ double textbook_fresnel_conductor(double c, double n, double k)
 	return 0.5 * (s + p);
 }
 
-double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3], const double wi[3])
+double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3],
+			    const double wi[3])
 {
 	double h[3];
 	for (int i = 0; i < 3; i++)
