@@ -13,6 +13,8 @@ import subprocess
 import sys
 import time
 
+del sys.path[0]  # the folder of this file, which would be taken for the package of its name
+
 ROUGH = {"alpha_u": 0.3, "alpha_v": 0.2}
 
 # Our lobe, and Mitsuba's BSDF.
