@@ -159,8 +159,8 @@ static void test_pdf_agrees_where_peers_disagree(void)
 		const lobe_real a = (lobe_real)peers[i].alpha;
 		const double s = sqrt((1.0 - peers[i].cos_o) * (1.0 + peers[i].cos_o));
 		const lobe_vec3 wo = lobe_vec3_make((float)(0.8 * s), (float)(0.6 * s), (float)peers[i].cos_o);
-		test_case c = {
-			peers[i].name, 0, {0}, {0}, 0, peers[i].alpha, peers[i].alpha, peers[i].eta, TEXTBOOK_GGX};
+		test_case c = {peers[i].name, 0,           {0}, {0}, 0, peers[i].alpha, peers[i].alpha,
+			       peers[i].eta,  TEXTBOOK_GGX};
 		c.bsdf =
 			peers[i].eta > 0.0
 				? lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(a, a, (lobe_real)peers[i].eta))

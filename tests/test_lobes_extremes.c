@@ -241,8 +241,8 @@ typedef struct {
 #lobe "." #member, offsetof(lobe_##lobe, member), channel                                              \
 	}
 #define RGB_FIELD(lobe, member) FIELD(lobe, member.r, 0), FIELD(lobe, member.g, 1), FIELD(lobe, member.b, 2)
-#define STRETCH_FIELD(lobe)                                                                                                \
-	FIELD(lobe, stretch.alpha_x, -1), FIELD(lobe, stretch.alpha_y, -1), FIELD(lobe, stretch.inv_alpha_x, -1),                  \
+#define STRETCH_FIELD(lobe)                                                                                            \
+	FIELD(lobe, stretch.alpha_x, -1), FIELD(lobe, stretch.alpha_y, -1), FIELD(lobe, stretch.inv_alpha_x, -1),      \
 		FIELD(lobe, stretch.inv_alpha_y, -1), FIELD(lobe, stretch.norm, -1)
 
 static const field fields_lambert[] = {RGB_FIELD(lambert, reflectance)};
@@ -253,7 +253,8 @@ static const field fields_ggx_dielectric[] = {STRETCH_FIELD(ggx_dielectric), FIE
 
 static const field fields_beckmann_conductor[] = {STRETCH_FIELD(beckmann_conductor), RGB_FIELD(beckmann_conductor, eta),
 						  RGB_FIELD(beckmann_conductor, k)};
-static const field fields_beckmann_dielectric[] = {STRETCH_FIELD(beckmann_dielectric), FIELD(beckmann_dielectric, eta, -1),
+static const field fields_beckmann_dielectric[] = {STRETCH_FIELD(beckmann_dielectric),
+						   FIELD(beckmann_dielectric, eta, -1),
 						   FIELD(beckmann_dielectric, inv_eta, -1)};
 
 static unsigned poisoned, shaded;

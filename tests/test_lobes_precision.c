@@ -219,8 +219,15 @@ static void rough_glass_against_walter(textbook_ndf ndf)
 		const lobe_real ax = 0.05f + 0.95f * u[0] * u[0], ay = 0.05f + 0.95f * u[1] * u[1];
 		const lobe_real up = 1.05f + 1.95f * u[2], eta = j & 1u ? up : 1.0f / up;
 		const lobe_vec3 wo = lobe_vec3_make(a[0], a[1], a[2]), wi = lobe_vec3_make(b[0], b[1], b[2]);
-		test_case c = {
-			"random glass", LOBE_KIND_GGX_DIELECTRIC, {0}, {0}, CASE_TWO_SIDED | CASE_TRANSMITS, 0, 0, 0, ndf};
+		test_case c = {"random glass",
+			       LOBE_KIND_GGX_DIELECTRIC,
+			       {0},
+			       {0},
+			       CASE_TWO_SIDED | CASE_TRANSMITS,
+			       0,
+			       0,
+			       0,
+			       ndf};
 		if (ndf == TEXTBOOK_BECKMANN)
 			c.kind = LOBE_KIND_BECKMANN_DIELECTRIC;
 		c.alpha_x = c.parameter[0] = (double)ax;
