@@ -262,6 +262,10 @@ figures:
 	@gnuplot bench/figures/figures.gp
 	@echo "out/figures: $$(ls out/figures/*.png | wc -l) figures"
 
+# Mitsuba 3 beside lobe, in turn; skipped, with a word why, where it cannot be installed. OPTIONS: of bench/peers/mitsuba.py.
+bench-peers: $(B)/bench/throughput
+	@bench/peers/mitsuba.sh $(OPTIONS)
+
 check:
 	@./deps.sh all
 	@tests/check.sh
@@ -300,6 +304,7 @@ help:
 		'make test       every test; the last line counts them' \
 		'make test-long  the slow sweeps too (an hour)' \
 		'make bench      throughput, its ceilings and scaling, build times, what pruning saves; out/bench/*.csv' \
+		'make bench-peers  Mitsuba 3 beside lobe (installs it in build/peers); out/bench/peers.csv' \
 		'make figures    D, G1, masking, albedo, visible normals: out/figures/*.png' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
@@ -308,7 +313,7 @@ help:
 		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: FORCE all run test test-long vectors bench figures check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench bench-peers figures check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)

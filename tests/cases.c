@@ -95,12 +95,9 @@ static const recipe ggx_dielectric_recipes[] = {
 };
 
 static const recipe beckmann_conductor_recipes[] = {
-	{"beckmann gold .0001", {1e-4, 1e-4, METAL(GOLD)}},
-	{"beckmann silver .01", {0.01, 0.01, METAL(SILVER)}},
-	{"beckmann gold .25", {0.25, 0.25, METAL(GOLD)}},
-	{"beckmann chromium .5", {0.5, 0.5, METAL(CHROMIUM)}},
-	{"beckmann tungsten 1", {1, 1, METAL(TUNGSTEN)}},
-	{"beckmann copper .05:.4", {0.05, 0.4, METAL(COPPER)}},
+	{"beckmann gold .0001", {1e-4, 1e-4, METAL(GOLD)}},    {"beckmann silver .01", {0.01, 0.01, METAL(SILVER)}},
+	{"beckmann gold .25", {0.25, 0.25, METAL(GOLD)}},      {"beckmann chromium .5", {0.5, 0.5, METAL(CHROMIUM)}},
+	{"beckmann tungsten 1", {1, 1, METAL(TUNGSTEN)}},      {"beckmann copper .05:.4", {0.05, 0.4, METAL(COPPER)}},
 	{"beckmann nickel 1:.0001", {1, 1e-4, METAL(NICKEL)}},
 };
 

@@ -390,8 +390,8 @@ static const test_case *case_named(const char *name)
 /* The same machinery on a density that is 2 % wrong in a region, one whose alpha is 3 % wrong, and the true one. */
 static void test_a_wrong_pdf_is_caught(void)
 {
-	static const char *const names[] = {"lambert grey", "gold .25", "copper .05:.4", "glass .3 importance",
-					    "bubble .2", "beckmann gold .25"};
+	static const char *const names[] = {"lambert grey",        "gold .25",  "copper .05:.4",
+					    "glass .3 importance", "bubble .2", "beckmann gold .25"};
 	histogram *h = malloc(sizeof *h);
 	TEST_ASSERT_NOT_NULL(h);
 	for (size_t i = 0; i < sizeof names / sizeof *names; i++) {

@@ -26,9 +26,11 @@ cplusplus() {
 # one_lobe COMPILER LOBE: its header by itself, and in single and double precision.
 one_lobe() {
 	printf '#include "lobe/lobes/%s.h"\nlobe_%s p;\nint main(void) { return 0; }\n' "$2" "$2" >$out/one.c
-	for double in 0 1; do
+	# With all lobes switched on, and with this one alone, as a scene's program has it.
+	alone="-DLOBE_HAS_DEFAULT=0 -DLOBE_HAS_$(echo "$2" | tr a-z A-Z)=1"
+	for option in -DLOBE_DOUBLE=0 -DLOBE_DOUBLE=1 "$alone"; do
 		# shellcheck disable=SC2086
-		"$1" $warnings -O2 -Iinclude -DLOBE_DOUBLE=$double $out/one.c -o $out/one -lm || return 1
+		"$1" $warnings -O2 -Iinclude $option $out/one.c -o $out/one -lm || return 1
 	done
 }
 

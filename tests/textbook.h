@@ -28,7 +28,8 @@ double textbook_fresnel_conductor(double c, double n, double k);
 double textbook_airy(double c, double n0, double nf, double d, double n, double k, double wavelength);
 
 /* f |cos theta_i| of a rough conductor: F D G2/(4 cos theta_o), height-correlated (Heitz 2014, eq. 99). */
-double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3], const double wi[3]);
+double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3],
+			    const double wi[3]);
 
 /* f |cos theta_i| of rough glass for light from wi seen from wo: eqs. 20 and 21 of Walter et al. 2007 with eta_o the
  * index of wo's side. Height-correlated masking for a reflection, G1 G1 for a refraction. */

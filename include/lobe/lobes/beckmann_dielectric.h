@@ -1,7 +1,7 @@
 /* beckmann_dielectric.h - rough glass: reflection and refraction by a Beckmann microsurface, from both sides.
  *
- * The model, its parameters and what it does near eta = 1: microfacet/dielectric.h; its distribution: microfacet/beckmann.h.
- * Single scattering: what would hit the microsurface again is lost. */
+ * The model, its parameters and what it does near eta = 1: microfacet/dielectric.h; its distribution:
+ * microfacet/beckmann.h. Single scattering: what would hit the microsurface again is lost. */
 #ifndef LOBE_LOBES_BECKMANN_DIELECTRIC_H
 #define LOBE_LOBES_BECKMANN_DIELECTRIC_H
 
@@ -9,8 +9,8 @@
 
 typedef lobe_rough_dielectric lobe_beckmann_dielectric;
 
-/* alpha_x, alpha_y: widths along tangent and bitangent, clamped to [LOBE_ALPHA_MIN, 1]. eta: index below over index above
- * the surface, in [1/1000, 1000]. Carries radiance; see lobe_beckmann_dielectric_transport. */
+/* alpha_x, alpha_y: widths along tangent and bitangent, clamped to [LOBE_ALPHA_MIN, 1]. eta: index below over index
+ * above the surface, in [1/1000, 1000]. Carries radiance; see lobe_beckmann_dielectric_transport. */
 LOBE_FN lobe_beckmann_dielectric lobe_beckmann_dielectric_make(lobe_real alpha_x, lobe_real alpha_y, lobe_real eta)
 {
 	return lobe_rough_dielectric_make(alpha_x, alpha_y, eta);

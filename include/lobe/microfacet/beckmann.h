@@ -11,10 +11,11 @@
  * of fourth order, for every v and u; X rises as u falls, without a jump.
  *
  * Errors, measured by tests/test_beckmann.c, with u = 2^-24 and t^2 = tan^2 of h:
- *	density  relative, @D@
- *	hidden   relative, @H@
- *	t        relative, @T@
- *	visible  of the cumulative distribution of X, absolute, @V@ above and @W@ below the horizon */
+ *	density  relative, 3.6 (1 + t^2) u
+ *	hidden   relative, 9 u + 6.2 c^2 u while it is a normal number
+ *	t        relative, 6.5 u
+ *	visible  of the cumulative distribution of X, absolute, 6.2e-7 above and 5.7e-7 below the horizon
+ *	         (a step of u: 6e-8) */
 #ifndef LOBE_MICROFACET_BECKMANN_H
 #define LOBE_MICROFACET_BECKMANN_H
 
@@ -94,7 +95,7 @@ LOBE_FN lobe_real lobe_beckmann_t(lobe_vec3 v)
 }
 
 /* Walter's rational Lambda (2007, section 5.2), in place of hidden: an alternative that needs no exponential. It is 0
- * from c = 1.6 on, where the fit would rise again. G1 is off by at most .0032 (at c = 1.34). */
+ * from c = 1.6 on, where the fit would rise again. G1 is off by at most .0031 (at c = 1.34). */
 LOBE_FN lobe_real lobe_beckmann_hidden_rational(lobe_vec3 v)
 {
 	const lobe_real r = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
@@ -116,7 +117,8 @@ typedef struct {
 /* One step of Householder's method of third order, whose error goes with the fourth power of the last. The density
  * p = 2 facing exp(-X^2)/sqrt(pi), facing = area_r X + area_z, gives all derivatives; with f = S - share the step is
  *	(f/p) (1 + b/2)/(1 + b + c/6),   b = f p'/p^2,   c = f^2 p''/p^3
- * here as one quotient, that of erfcx included. For X < 0 f is 1 - S against rest, so that both tails keep their precision. */
+ * here as one quotient, that of erfcx included. For X < 0 f is 1 - S against rest, so that both tails keep their
+ * precision. */
 LOBE_FN lobe_real lobe_beckmann_slope_step(lobe_beckmann_slope s, lobe_real x)
 {
 	const int positive = x >= LOBE_R(0.0);
@@ -141,8 +143,8 @@ LOBE_FN lobe_real lobe_beckmann_slope_step(lobe_beckmann_slope s, lobe_real x)
 
 /* X where the complement of its distribution is u, for v.z >= 0.
  *
- * The start. With y = erf(X) and y0 = erf(-z/r), w = (y - y0)/(1 - y0) goes from 0 to 1; 1 - S begins as w^2/m and is w in
- * the limit of normal incidence. 1 - S = w^2/(m + (1 - m) w), a quadratic equation, is right there and at w = 1. */
+ * The start. With y = erf(X) and y0 = erf(-z/r), w = (y - y0)/(1 - y0) goes from 0 to 1; 1 - S begins as w^2/m and is w
+ * in the limit of normal incidence. 1 - S = w^2/(m + (1 - m) w), a quadratic equation, is right there and at w = 1. */
 LOBE_FN lobe_real lobe_beckmann_slope_above(lobe_vec3 v, lobe_real t, lobe_real u)
 {
 	const lobe_real one = LOBE_R(1.0);
@@ -166,7 +168,7 @@ LOBE_FN lobe_real lobe_beckmann_slope_above(lobe_vec3 v, lobe_real t, lobe_real 
 	const lobe_real root = lobe_sqrt(lobe_fma(k, k, LOBE_R(4.0) * m * s.rest));
 	const lobe_real w = LOBE_R(0.5) * (k + root);
 	const lobe_real one_minus_w = (s.share + s.share) / ((LOBE_R(2.0) - k) + root);
-	const lobe_real below_1 = range * one_minus_w;           /* 1 - y */
+	const lobe_real below_1 = range * one_minus_w;            /* 1 - y */
 	const lobe_real above_minus_1 = lobe_fma(range, w, tail); /* 1 + y */
 	const lobe_real start = lobe_erfinv_from(LOBE_R(0.5) * (above_minus_1 - below_1), above_minus_1 * below_1);
 	return lobe_beckmann_slope_step(s, lobe_beckmann_slope_step(s, start));
@@ -178,11 +180,11 @@ LOBE_FN lobe_real lobe_beckmann_slope_above(lobe_vec3 v, lobe_real t, lobe_real 
  * S = exp(-l) at the horizon. The start adds to l = -log u what makes it right for u near 1, and nearly so elsewhere. */
 LOBE_FN lobe_real lobe_beckmann_slope_below(lobe_real c, lobe_real u)
 {
-	const lobe_real one = LOBE_R(1.0), half = LOBE_R(0.5);
+	const lobe_real one = LOBE_R(1.0);
 	const lobe_real share = u + LOBE_R(0x1p-25), rest = (one - u) - LOBE_R(0x1p-25);
 	const lobe_real whole = lobe_ierfcx(c);
 	/* -log(share), with the series of log(1 - rest) where share is 1 to rounding */
-	const lobe_real series = rest * lobe_fma(rest, lobe_fma(rest, LOBE_R(0.333333333), half), one);
+	const lobe_real series = rest * lobe_fma(rest, lobe_fma(rest, LOBE_R(0.333333333), LOBE_R(0.5)), one);
 	const lobe_real l0 = rest < LOBE_R(0x1p-8) ? series : -lobe_log(share);
 	const lobe_real g = lobe_sqrt(l0);
 	const lobe_real slope = LOBE_R(2.0) * c * lobe_sqrt(LOBE_SQRT_PI * whole);
@@ -192,14 +194,14 @@ LOBE_FN lobe_real lobe_beckmann_slope_below(lobe_real c, lobe_real u)
 		const lobe_real x = c + f;
 		const lobe_real gauss = lobe_exp(-f * (f + (c + c)));
 		const lobe_real s = gauss * lobe_fma(f, lobe_erfcx(x), lobe_ierfcx(x));
-		const lobe_real n = half * LOBE_SQRT_PI * lobe_fma(-share, whole, s) / (f * f * gauss);
+		const lobe_real n = LOBE_R(0.5) * LOBE_SQRT_PI * lobe_fma(-share, whole, s) / (f * f * gauss);
 		const lobe_real xf = x * f;
 		const lobe_real bn = n * (one - (xf + xf));
 		const lobe_real c2 = lobe_fma(LOBE_R(4.0) * xf, xf - one, LOBE_R(-2.0) * f * f);
-		const lobe_real num = lobe_fma(half, bn, one);
+		const lobe_real num = lobe_fma(LOBE_R(0.5), bn, one);
 		const lobe_real den = lobe_fma(n * n, c2 * LOBE_R(0x1.555556p-3), one + bn);
 		const lobe_real step = n * num / den;
-		f = lobe_abs(step) < half ? lobe_fma(f, step, f) : f;
+		f = lobe_abs(step) < LOBE_R(0.5) ? lobe_fma(f, step, f) : f;
 	}
 	return f;
 }

@@ -19,7 +19,7 @@
 LOBE_FN lobe_facet_density lobe_ndf_density(lobe_uint ndf, lobe_vec3 h)
 {
 #if LOBE_HAS_NDF_BECKMANN
-	if (ndf == LOBE_NDF_BECKMANN)
+	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
 		return lobe_beckmann_density(h);
 #endif
 #if LOBE_HAS_NDF_GGX
@@ -32,7 +32,7 @@ LOBE_FN lobe_facet_density lobe_ndf_density(lobe_uint ndf, lobe_vec3 h)
 LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 {
 #if LOBE_HAS_NDF_BECKMANN
-	if (ndf == LOBE_NDF_BECKMANN)
+	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
 		return lobe_beckmann_t(v);
 #endif
 #if LOBE_HAS_NDF_GGX
@@ -45,7 +45,7 @@ LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
 #if LOBE_HAS_NDF_BECKMANN
-	if (ndf == LOBE_NDF_BECKMANN)
+	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
 		return lobe_beckmann_visible_above(v, t, u);
 #endif
 #if LOBE_HAS_NDF_GGX

@@ -1,0 +1,420 @@
+/* test_beckmann.c - microfacet/beckmann.h: the distribution, its projected area and masking, and visible-normal sampling,
+ * against the definitions in double. Widths are the business of stretch.h (test_ggx.c) and of the lobes' tests. */
+#include "measured.h"
+#include "support.h"
+#include "unity.h"
+
+#include "lobe/microfacet/beckmann.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_integration.h>
+#include <math.h>
+#include <stdio.h>
+
+#define U  0x1p-24
+#define PI 3.14159265358979323846
+
+void setUp(void) { measured_reset(); }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
+
+/* A NaN is larger than everything. */
+static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
+
+/* --- the definitions ------------------------------------------------------------------------------------------------ */
+
+/* exp(x^2) erfc(x) and exp(x^2) ierfc(x), x >= 0: by definition, or by the continued fraction of the tail. */
+static double tail_fraction(double x)
+{
+	double t = 0.0;
+	for (int k = x < 4.0 ? 160 : x < 100.0 ? 30 : 6; k > 0; k--)
+		t = 0.5 * k / (x + t);
+	return t;
+}
+
+static double erfcx(double x) { return x < 2.0 ? exp(x * x) * erfc(x) : 1.0 / sqrt(PI) / (x + tail_fraction(x)); }
+
+static double ierfcx(double x)
+{
+	const double t = x < 2.0 ? 0.0 : tail_fraction(x);
+	return x < 2.0 ? 1.0 / sqrt(PI) - x * erfcx(x) : t / sqrt(PI) / (x + t);
+}
+
+static double radius(lobe_vec3 v) { return hypot((double)v.x, (double)v.y); }
+
+static double exact_hidden(lobe_vec3 v)
+{
+	const double r = radius(v), c = fabs((double)v.z) / r;
+	return r > 0.0 && c < 27.0 ? 0.5 * r * exp(-c * c) * ierfcx(c) : 0.0;
+}
+
+/* The direction of length `length` whose cotangent is c. */
+static lobe_vec3 at_cotangent(double c, double phi, double length)
+{
+	const double s = length / sqrt(1.0 + c * c);
+	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)(c * s));
+}
+
+/* Number i of cotangents from 1e-7 to 1e7, of either sign. */
+static double cotangent(uint32_t stream, uint64_t i)
+{
+	const double c = pow(10.0, 14.0 * (double)test_uniform(stream, i) - 7.0);
+	return i % 7 == 0 ? 0.0 : i & 1 ? c : -c;
+}
+
+/* --- D, hidden, t ----------------------------------------------------------------------------------------------------- */
+
+static void test_density(void)
+{
+	double worst = 0.0;
+	for (uint64_t i = 0; i < 300000; i++) {
+		const double slope = 9.0 * (double)test_uniform(1, 3 * i),
+			     phi = 2.0 * PI * (double)test_uniform(1, 3 * i + 1);
+		const double z = pow(10.0, 4.0 * (double)test_uniform(1, 3 * i + 2) - 2.0);
+		const lobe_vec3 h =
+			lobe_vec3_make((float)(z * slope * cos(phi)), (float)(z * slope * sin(phi)), (float)z);
+		const lobe_facet_density d = lobe_beckmann_density(h);
+		const double z2 = (double)h.z * (double)h.z, t2 = radius(h) * radius(h) / z2;
+		const double e = exp(-t2) / (z2 * z2);
+		const double got = (double)d.inv * (double)d.inv * (double)d.factor;
+		if (exp(-t2) > 0x1p-126) /* below, a float has fewer bits */
+			worst = worse(worst, fabs(got / e - 1.0) / (U * (4.0 + 4.0 * t2)));
+	}
+	/* inv carries 2 U and stands squared; exp 1.8 U; its argument 3.5 U of itself. */
+	measured("density: relative error over (4 + 4 t^2) u", worst, 1.5);
+	/* Steep normals: nothing, never NaN, as long as 1/z^2 is finite. */
+	const lobe_facet_density steep = lobe_beckmann_density(lobe_vec3_make(1.0f, 0.0f, 1e-15f));
+	TEST_ASSERT_TRUE(steep.factor == 0.0f && steep.inv <= LOBE_REAL_MAX);
+}
+
+static void test_hidden_and_t(void)
+{
+	double worst_hidden = 0.0, worst_t = 0.0, worst_g2 = 0.0;
+	for (uint64_t i = 0; i < 300000; i++) {
+		const double length = pow(10.0, 8.0 * (double)test_uniform(3, i) - 4.0);
+		/* Every other one where hidden is neither 0 nor all. */
+		const double c = i & 1 ? 10.0 * (double)test_uniform(4, i) : cotangent(2, i);
+		const lobe_vec3 v = at_cotangent(c, 6.0 * (double)test_uniform(5, i), length);
+		const double e = exact_hidden(v), cot = fabs((double)v.z) / radius(v);
+		const double got = (double)lobe_beckmann_hidden(v), t = (double)lobe_beckmann_t(v);
+		/* c carries 3 U, so exp(-c^2) 6 c^2 U. */
+		if (exp(-cot * cot) > 0x1p-126 && e > 1e-30)
+			worst_hidden = worse(worst_hidden, fabs(got / e - 1.0) / (U * (10.0 + 7.0 * cot * cot)));
+		worst_t = worse(worst_t, fabs(t / (fabs((double)v.z) + 2.0 * e) - 1.0));
+		const lobe_vec3 w = at_cotangent(fabs(cotangent(6, i)), 0.3, 1.0);
+		const double z = fabs((double)v.z), tw = (double)lobe_beckmann_t(w);
+		if (z > 0.0 && w.z > 0.0f) {
+			const double g2 = z * (double)lobe_smith_g2_over_cos((float)z, (float)t, w.z, (float)tw);
+			const double least = fmin(2.0 * z / (z + t), 2.0 * (double)w.z / ((double)w.z + tw));
+			worst_g2 = worse(worst_g2, g2 / least - 1.0);
+		}
+	}
+	measured("hidden: relative error over (10 + 7 c^2) u", worst_hidden, 1.0);
+	/* c carries 3 U, of which t sees as much as d ierfc/dc = -erfc(c) passes on; 3 U for r, the sum and the product; the
+	 * polynomial is off by .8 U where its value is about all of t, and rounds 2 U. */
+	measured("t: relative error in u", worst_t / U, 7.0);
+	measured("G2/min(G1(o), G1(i)) - 1, in u", worst_g2 / U, 14.0);
+	/* The ends: straight up, along the horizon, nowhere. */
+	const lobe_vec3 up = lobe_vec3_make(0.0f, 0.0f, 2.0f), along = lobe_vec3_make(0.0f, 3.0f, 0.0f);
+	TEST_ASSERT_TRUE(lobe_beckmann_hidden(up) == 0.0f && lobe_beckmann_t(up) == 2.0f);
+	TEST_ASSERT_FLOAT_WITHIN(1e-6f, 3.0f / sqrtf((float)PI), lobe_beckmann_t(along));
+	TEST_ASSERT_TRUE(lobe_beckmann_hidden(lobe_vec3_make(0.0f, 0.0f, 0.0f)) == 0.0f);
+	TEST_ASSERT_TRUE(lobe_beckmann_hidden_rational(lobe_vec3_make(0.0f, 0.0f, 0.0f)) == 0.0f);
+}
+
+/* Walter states that G1 is off by less than .35 %. Without the cut at 1.6 it is not. */
+static void test_rational_lambda(void)
+{
+	double worst = 0.0, at = 0.0, uncut = 0.0;
+	for (int i = 1; i <= 200000; i++) {
+		const double c = i * 1e-4;
+		const lobe_vec3 v = at_cotangent(c, 1.0, 1.0);
+		const double z = (double)v.z, exact = z / (z + exact_hidden(v));
+		const double off = fabs(z / (z + (double)lobe_beckmann_hidden_rational(v)) - exact);
+		const double lambda = (1.0 - 1.259 * c + 0.396 * c * c) / (3.535 * c + 2.181 * c * c);
+		at = off > worst ? c : at;
+		worst = worse(worst, off);
+		uncut = larger(uncut, fabs(1.0 / (1.0 + lambda) - exact));
+	}
+	measured("G1 by Walter's rational Lambda against the exact one", worst, 0.00312);
+	printf("  at c = %.3f; without the cut at 1.6: %.4f\n", at, uncut);
+	TEST_ASSERT_TRUE(uncut > 0.05);
+}
+
+/* --- integrals of D --------------------------------------------------------------------------------------------------- */
+
+/* Over slopes (x, y), where D m.z dm = P22 dx dy and P22 is the density at (-x, -y, 1) over pi. The plane of slopes is cut
+ * along the line where v.m changes its sign, so that the integrand is smooth. */
+typedef struct {
+	lobe_vec3 v;
+	double x;
+} plane;
+
+static double p22(double x, double y)
+{
+	const lobe_facet_density d = lobe_beckmann_density(lobe_vec3_make((float)-x, (float)-y, 1.0f));
+	return (double)d.inv * (double)d.inv * (double)d.factor / PI;
+}
+
+/* x: along v's azimuth, positive where facets lean towards v. */
+static double along_y(double y, void *context)
+{
+	const plane *p = context;
+	const double phi = atan2((double)p->v.y, (double)p->v.x);
+	const double mx = cos(phi) * p->x - sin(phi) * y, my = sin(phi) * p->x + cos(phi) * y;
+	const double facing = (double)p->v.x * mx + (double)p->v.y * my + (double)p->v.z;
+	return p22(-mx, -my) * (facing > 0.0 ? facing : 0.0);
+}
+
+static double along_x(double x, void *context)
+{
+	plane *p = context;
+	static gsl_integration_glfixed_table *rule = NULL;
+	gsl_function f = {along_y, p};
+	if (!rule)
+		rule = gsl_integration_glfixed_table_alloc(40);
+	p->x = x;
+	return gsl_integration_glfixed(&f, -5.5, 5.5, rule);
+}
+
+static double projected_area(lobe_vec3 v)
+{
+	const double r = radius(v), start = r > 0.0 ? fmax(-(double)v.z / r, -5.5) : -5.5;
+	gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(60);
+	plane p = {v, 0.0};
+	gsl_function f = {along_x, &p};
+	const double area = start < 5.5 ? gsl_integration_glfixed(&f, start, fmax(5.5, start + 1.0), rule) : 0.0;
+	gsl_integration_glfixed_table_free(rule);
+	return area;
+}
+
+static void test_normalisation_and_projected_area(void)
+{
+	static const double cots[] = {0.0, 1e-3, 0.1, 0.5, 1.0, 2.0, 4.0, 30.0, -1e-3, -0.1, -0.5, -1.0, -2.0, -2.5};
+	/* Seen from above the projected area is that of the mean plane. */
+	measured("|integral of D cos - 1| in u", fabs(projected_area(lobe_vec3_make(0.0f, 0.0f, 1.0f)) - 1.0) / U, 4.0);
+	double above = 0.0, below = 0.0, furnace = 0.0;
+	for (size_t i = 0; i < sizeof cots / sizeof *cots; i++) {
+		const lobe_vec3 v = at_cotangent(cots[i], 0.6, 1.0);
+		const double area = projected_area(v), hidden = (double)lobe_beckmann_hidden(v);
+		const double sigma = fmax((double)v.z, 0.0) + hidden;
+		if (v.z >= 0.0f) {
+			above = worse(above, fabs(sigma / area - 1.0));
+			/* The weak white furnace is the integral of G1 max(0, v.m) D/v.z. */
+			const double t = (double)lobe_beckmann_t(v);
+			furnace = worse(furnace, fabs(2.0 * area / ((double)v.z + t) - 1.0));
+		} else {
+			below = worse(below, fabs(sigma / area - 1.0));
+		}
+	}
+	measured("sigma against the integral of max(0, v.m) D: relative, in u", above / U, 10.0);
+	measured("the same below the horizon, where c^2 <= 6.3", below / U, 10.0 + 7.0 * 6.3);
+	measured("|weak white furnace - 1| in u", furnace / U, 10.0);
+}
+
+/* --- visible normals: the distribution that is inverted ----------------------------------------------------------------- */
+
+/* u number i: all of the 1000 next to either end, then random ones. */
+static float u_at(uint32_t stream, uint32_t i)
+{
+	return i < 1000u   ? (float)i * 0x1p-24f
+	       : i < 2000u ? 1.0f - (float)(i - 999u) * 0x1p-24f
+			   : test_uniform(stream, i);
+}
+
+/* The complement of X's distribution, at X = x for z >= 0 and at X = c + x below the horizon (c = |z|/r). */
+static double complement_above(double c, double x)
+{
+	return (exp(-x * x) / sqrt(PI) + c * erfc(x)) / (2.0 * c + exp(-c * c) * ierfcx(c));
+}
+
+static double complement_below(double c, double x)
+{
+	return exp(-x * (x + 2.0 * c)) * (ierfcx(c + x) + x * erfcx(c + x)) / ierfcx(c);
+}
+
+/* X by bisection of the same, to the last bit of a double. */
+static double bisected(double (*complement)(double, double), double c, double lo, double share)
+{
+	double hi = 12.0;
+	for (int i = 0; i < 80; i++) {
+		const double middle = 0.5 * (lo + hi);
+		if (complement(c, middle) > share)
+			lo = middle;
+		else
+			hi = middle;
+	}
+	return 0.5 * (lo + hi);
+}
+
+static void test_inversion(void)
+{
+	double above = 0.0, below = 0.0, tail = 0.0, distance = 0.0;
+	uint32_t not_visible = 0;
+	for (uint32_t k = 0; k <= 300; k++) {
+		const double wanted = k == 0 ? 0.0 : pow(10.0, -7.0 + 13.0 * k / 300.0);
+		const lobe_vec3 v = at_cotangent(wanted, 2.0, 1.0);
+		const double c = (double)v.z / radius(v);
+		const float t = lobe_beckmann_t(v), c_float = (float)c;
+		for (uint32_t i = 0; i < 6000u; i++) {
+			const float u = u_at(100u + k, i);
+			const double share = (double)u + 0x1p-25;
+			const double x = (double)lobe_beckmann_slope_above(v, t, u);
+			above = worse(above, fabs(complement_above(c, x) - share));
+			if (share < 0.5)
+				tail = worse(tail, fabs(complement_above(c, x) / share - 1.0));
+			not_visible += x > -c - 1e-6 * c ? 0u : 1u;
+			const double f = (double)lobe_beckmann_slope_below(c_float, u);
+			below = worse(below, fabs(complement_below((double)c_float, f) - share));
+			not_visible += f > 0.0 ? 0u : 1u;
+			if (i % 60 == 0) {
+				/* In X itself, where the density is not small. */
+				const double e = bisected(complement_above, c, fmax(-c, -6.0), share);
+				if (share > 1e-3 && share < 0.999)
+					distance = worse(distance, fabs(x - e));
+			}
+		}
+	}
+	measured("distribution of X: absolute error above the horizon", above, 7.2e-7);
+	measured("distribution of X: absolute error below", below, 7.2e-7);
+	measured("its upper tail: relative error", tail, 6e-6);
+	measured("X against bisection, 1e-3 < u < 1 - 1e-3", distance, 2e-5);
+	measured("facets that are not visible", not_visible, 0.0);
+}
+
+/* Rounding aside X falls as u rises, and without a jump: over 2^-12 in u it falls, but for nowhere by more than a
+ * neighbouring cell would. */
+static void test_monotone(void)
+{
+	uint32_t rises = 0;
+	double largest = 0.0;
+	for (uint32_t k = 0; k <= 100; k++) {
+		const lobe_vec3 v = at_cotangent(k == 0 ? 0.0 : pow(10.0, -4.0 + 8.0 * k / 100.0), 2.0, 1.0);
+		const float t = lobe_beckmann_t(v), c = (float)((double)v.z / radius(v));
+		float last = lobe_beckmann_slope_above(v, t, 0.0f), last_below = lobe_beckmann_slope_below(c, 0.0f);
+		for (uint32_t i = 1; i < 4096u; i++) {
+			const float x = lobe_beckmann_slope_above(v, t, (float)i * 0x1p-12f);
+			const float f = lobe_beckmann_slope_below(c, (float)i * 0x1p-12f);
+			rises += (x < last ? 0u : 1u) + (f < last_below ? 0u : 1u);
+			if (i > 40u && i < 4056u)
+				largest = larger(largest, (double)(last - x));
+			last = x;
+			last_below = f;
+		}
+	}
+	measured("X rises with u, in steps of 2^-12", rises, 0.0);
+	measured("largest step of X between u of .01 and .99", largest, 0.02);
+}
+
+/* --- visible normals: samples ------------------------------------------------------------------------------------------- */
+
+#define SAMPLES 500000u
+#define SIDE    20
+
+typedef lobe_vec3 (*sampler)(lobe_vec3 v, lobe_vec2 u);
+
+/* Planted: an inversion that stops early. X of normal incidence, moved by half of the mean that X has at c. */
+static lobe_vec3 sample_gauss_start(lobe_vec3 v, lobe_vec2 u)
+{
+	const lobe_real x = lobe_erfinv(lobe_fma(LOBE_R(-2.0), u.x, LOBE_BELOW_ONE));
+	return lobe_beckmann_normal(v, x + 0.25f / (float)(fabs((double)v.z) / radius(v)), u.y);
+}
+
+/* Planted: v 3 % off its length along z. */
+static lobe_vec3 sample_wrong_view(lobe_vec3 v, lobe_vec2 u)
+{
+	return lobe_beckmann_visible(lobe_vec3_make(v.x, v.y, 1.03f * v.z), u);
+}
+
+static lobe_vec3 sample_above(lobe_vec3 v, lobe_vec2 u)
+{
+	return lobe_beckmann_visible_above(v, lobe_beckmann_t(v), u);
+}
+
+/* Chi-square over cells of equal probability: in X by the complement of its distribution, in Y by that of a Gaussian,
+ * which the exact formulas tell apart from how the sampler inverts them. */
+static double p_value(sampler sample, lobe_vec3 v, uint32_t stream)
+{
+	static uint32_t count[SIDE * SIDE];
+	const double r = radius(v), z = (double)v.z, c = fabs(z) / r;
+	const double cos_phi = (double)v.x / r, sin_phi = (double)v.y / r;
+	double chi2 = 0.0;
+	for (int i = 0; i < SIDE * SIDE; i++)
+		count[i] = 0;
+	for (uint64_t i = 0; i < SAMPLES; i++) {
+		float u[3];
+		test_u3(stream, i, u);
+		const lobe_vec3 m = sample(v, lobe_vec2_make(u[0], u[1]));
+		const double mx = (double)m.x / (double)m.z, my = (double)m.y / (double)m.z;
+		const double x = cos_phi * mx + sin_phi * my, y = cos_phi * my - sin_phi * mx;
+		const double s = z < 0.0 ? complement_below(c, fmax(x - c, 0.0)) : complement_above(c, x);
+		int column = (int)(s * SIDE), row = (int)(0.5 * erfc(y) * SIDE);
+		column = column < 0 ? 0 : column >= SIDE ? SIDE - 1 : column;
+		row = row >= SIDE ? SIDE - 1 : row;
+		count[column * SIDE + row] += 1u;
+	}
+	for (int i = 0; i < SIDE * SIDE; i++) {
+		const double e = (double)SAMPLES / (SIDE * SIDE), d = (double)count[i] - e;
+		chi2 += d * d / e;
+	}
+	return gsl_cdf_chisq_Q(chi2, SIDE * SIDE - 1);
+}
+
+static void test_visible_chi_square(void)
+{
+	static const double cots[] = {0.0, 1e-6, 0.01, 0.3, 1.0, 2.5, 5.0, 1e3, -1e-4, -0.2, -1.0, -3.0, -10.0};
+	const size_t n = sizeof cots / sizeof *cots;
+	const double level = 1.0 - pow(0.99, 1.0 / (double)n); /* Sidak, all cases together: .01 */
+	for (size_t i = 0; i < n; i++) {
+		const lobe_vec3 v = at_cotangent(cots[i], 0.7 * (double)i, 1.0);
+		const double p = p_value(lobe_beckmann_visible, v, 300u + (uint32_t)i);
+		printf("  cot %-7g p = %8.3g   level %.3g\n", cots[i], p, level);
+		if (p <= level)
+			measured("the chi-square p of that case, negated", -p, -level);
+		if (v.z > 0.0f) {
+			float u[3];
+			test_u3(400u, i, u);
+			const lobe_vec2 at = lobe_vec2_make(u[0], u[1]);
+			const lobe_vec3 a = lobe_beckmann_visible(v, at), b = sample_above(v, at);
+			TEST_ASSERT_TRUE(a.x == b.x && a.y == b.y && a.z == b.z);
+		}
+	}
+	const double start = p_value(sample_gauss_start, at_cotangent(2.5, 1.0, 1.0), 300u);
+	const double view = p_value(sample_wrong_view, at_cotangent(1.0, 1.0, 1.0), 300u);
+	printf("  planted: a shifted Gaussian for X at cot 2.5 p = %.3g; v.z 3 %% off at cot 1 p = %.3g\n", start,
+	       view);
+	TEST_ASSERT_TRUE(start <= level && view <= level);
+}
+
+/* Every v and u: finite and upright. */
+static void test_visible_extremes(void)
+{
+	static const float corner[] = {0.0f, 0x1p-149f, 0x1p-24f, 0.25f, 0.5f, 0.75f, 0x1.fffffcp-1f, 0x1.fffffep-1f};
+	static const float parts[] = {0.0f, 1e-30f, 1e-20f, 1e-10f, 1e-6f, 1e-4f, 1e-2f, 1.0f};
+	uint32_t bad = 0;
+	double steepest = 0.0;
+	for (uint32_t i = 0; i < 8u * 8u * 64u * 2u; i++) {
+		const float z = parts[i / 8u % 8u];
+		const lobe_vec3 v = lobe_vec3_make(parts[i % 8u], 0.0f, i & 0x1000u ? -z : z);
+		const lobe_vec3 m =
+			lobe_beckmann_visible(v, lobe_vec2_make(corner[i / 64u % 8u], corner[i / 512u % 8u]));
+		const double size = (double)m.x * (double)m.x + (double)m.y * (double)m.y;
+		bad += m.z == 1.0f && size < 1e13 ? 0u : 1u;
+		steepest = v.z >= 0.0f ? larger(steepest, sqrt(size)) : steepest;
+	}
+	measured("visible normals not finite or not upright", bad, 0.0);
+	printf("  steepest slope from above: %.2f\n", steepest);
+}
+
+int main(void)
+{
+	UNITY_BEGIN();
+	RUN_TEST(test_density);
+	RUN_TEST(test_hidden_and_t);
+	RUN_TEST(test_rational_lambda);
+	RUN_TEST(test_normalisation_and_projected_area);
+	RUN_TEST(test_inversion);
+	RUN_TEST(test_monotone);
+	RUN_TEST(test_visible_chi_square);
+	RUN_TEST(test_visible_extremes);
+	return UNITY_END() != 0;
+}
