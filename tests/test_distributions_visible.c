@@ -81,7 +81,7 @@ static double steepness(lobe_vec3 m) { return hypot((double)m.x, (double)m.y) / 
 
 /* --- cumulative distributions -------------------------------------------------------------------------------------- */
 
-enum { RINGS = 24 };
+enum { RINGS = 16 };
 
 /* Steeper than this nothing is told apart: the horizon is 1e-15 away. */
 #define FLAT 1e15
