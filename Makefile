@@ -18,7 +18,7 @@ LIBS := -lm -ldl -lpthread
 
 # --- library ----------------------------------------------------------------------------------------------------------
 
-LOBES := $(shell sed -n 's/^LOBE_X.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
+LOBES := $(shell sed -n 's/^LOBE_X[A-Z_]*.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
 
 ISAS := baseline
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine 2>/dev/null)))

@@ -72,21 +72,31 @@
 	LOBE_STORE(weight_b, s.weight.b);                                                                              \
 	LOBE_STORE(pdf, s.pdf);
 
+/* --- parameters: where they are, and number i of them. A lobe that may carry a table (core/table.h) finds in its handle
+ * the place of the table in the scene's flat buffer, in bytes; here it becomes an address. --- */
+
+#define LOBE_TABLE_plain(lobe) __global const lobe_##lobe *restrict table
+#define LOBE_TABLE_tabled(lobe) __global const lobe_##lobe *restrict table, __global const float *restrict tables
+#define LOBE_AT_plain(lobe, i) table[i]
+#define LOBE_AT_tabled(lobe, i)                                                                                        \
+	lobe_##lobe##_with_table(table[i], lobe_table_at((ulong)tables +                                               \
+							 lobe_table_address(lobe_##lobe##_table(table[i]))))
+
 /* --- kernels --- */
 
-#define LOBE_KERNELS(lobe, verb)                                                                                       \
+#define LOBE_KERNELS(lobe, verb, form)                                                                                      \
 	__kernel void lobe_kernel_##lobe##_##verb##_one(ulong first, ulong last,                                       \
-							__global const lobe_##lobe *restrict table,                    \
+							LOBE_TABLE_##form(lobe),                    \
 							LOBE_ARRAYS_##verb)                                            \
 	{                                                                                                              \
 		LOBE_FOR(e) {                                                                                          \
 			const bool ok = true;                                                                          \
-			const lobe_##lobe p = table[0];                                                                \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, 0);                                                                \
 			LOBE_BODY_##verb(lobe)                                                                         \
 		}                                                                                                      \
 	}                                                                                                              \
 	__kernel void lobe_kernel_##lobe##_##verb##_many(                                                              \
-		ulong first, ulong last, __global const lobe_##lobe *restrict table,                                   \
+		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                   \
 		__global const uint *restrict slot, uint slot_count, __global const uint *restrict material,           \
 		LOBE_ARRAYS_##verb)                                                                                    \
 	{                                                                                                              \
@@ -94,29 +104,32 @@
 			const uint m = material[e];                                                                    \
 			const uint place = slot[m < slot_count ? m : 0u];                                              \
 			const bool ok = (m < slot_count) & (place != LOBE_NO_SLOT);                                    \
-			const lobe_##lobe p = table[ok ? place : 0u];                                                  \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, ok ? place : 0u);                                                  \
 			LOBE_BODY_##verb(lobe)                                                                         \
 		}                                                                                                      \
 	}                                                                                                              \
 	__kernel void lobe_kernel_##lobe##_##verb##_mixed(                                                             \
-		ulong first, ulong last, __global const lobe_##lobe *restrict table,                                   \
+		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                   \
 		__global const uint *restrict slot, __global const uint *restrict material,                            \
 		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
 	{                                                                                                              \
 		LOBE_FOR(i) {                                                                                          \
 			const ulong e = base + order[i];                                                               \
 			const bool ok = true;                                                                          \
-			const lobe_##lobe p = table[slot[material[e]]];                                                \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, slot[material[e]]);                                                \
 			LOBE_BODY_##verb(lobe)                                                                         \
 		}                                                                                                      \
 	}
 
-#define LOBE_X(NAME, lobe, kind)                                                                                       \
-	LOBE_KERNELS(lobe, eval_f)                                                                                     \
-	LOBE_KERNELS(lobe, eval_pdf)                                                                                   \
-	LOBE_KERNELS(lobe, eval_f_pdf)                                                                                 \
-	LOBE_KERNELS(lobe, sample)                                                                                     \
-	LOBE_KERNELS(lobe, sample_wi)
+#define LOBE_KERNELS_OF(lobe, form)                                                                                    \
+	LOBE_KERNELS(lobe, eval_f, form)                                                                               \
+	LOBE_KERNELS(lobe, eval_pdf, form)                                                                             \
+	LOBE_KERNELS(lobe, eval_f_pdf, form)                                                                           \
+	LOBE_KERNELS(lobe, sample, form)                                                                               \
+	LOBE_KERNELS(lobe, sample_wi, form)
+
+#define LOBE_X(NAME, lobe, kind) LOBE_KERNELS_OF(lobe, plain)
+#define LOBE_X_TABLED(NAME, lobe, kind) LOBE_KERNELS_OF(lobe, tabled)
 #include "../include/lobe/lobes/lobes.def"
 #undef LOBE_X
 

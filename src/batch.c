@@ -98,6 +98,7 @@ static void free_scene(lobe_scene *scene)
 {
 	for (int i = 0; i < LOBE_COUNT; i++)
 		free(scene->table[i].params);
+	free(scene->tables);
 	free(scene->index);
 	free(scene->slot);
 	free(scene->options);
@@ -128,7 +129,7 @@ static int fill_scene(lobe_scene *scene, const lobe_bsdf *materials)
 		const size_t size = lobe_param_size[index];
 		memcpy((unsigned char *)scene->table[index].params + scene->slot[i] * size, &materials[i].as, size);
 	}
-	return (scene->options = make_options(scene)) != NULL;
+	return lobe_tables_gather(scene) && (scene->options = make_options(scene)) != NULL;
 }
 
 lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count)
@@ -139,7 +140,9 @@ lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_
 	if (count == 0 || count > UINT32_MAX)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_scene_create: count is %zu, not 1 to 2^32 - 1", count);
 	for (size_t i = 0; i < count; i++) {
-		const lobe_status status = lobe_check_material(materials, i);
+		lobe_status status = lobe_check_material(materials, i);
+		if (status == LOBE_OK)
+			status = lobe_check_table(materials, i);
 		if (status != LOBE_OK)
 			return status;
 	}

@@ -101,7 +101,9 @@ struct lobe_scene {
 		void *params; /* lobe_<name>[count], owned; NULL when count is 0 */
 		size_t count;
 	} table[LOBE_COUNT];
-	char *options; /* OpenCL build options, owned */
+	float *tables;      /* [table_words] copies of the materials' tables (core/table.h), owned; [0] is no table */
+	size_t table_words; /* 0: no lobe of the scene may carry one */
+	char *options;      /* OpenCL build options, owned */
 	void *state;   /* the backend's */
 };
 
@@ -130,6 +132,19 @@ void lobe_set_error_message(const char *format, ...)
 /* Elements [0, n) of material[] grouped by lobe: order[begin[L] .. begin[L+1]) are the elements of lobe L, ascending;
  * L up to and including LOBE_INDEX_NONE, begin has LOBE_COUNT + 2 entries. material has been checked. (sort.c) */
 void lobe_sort_by_lobe(const lobe_scene *scene, const uint32_t *material, size_t n, uint32_t *order, size_t *begin);
+
+/* Whether that lobe may carry a table: LOBE_X_TABLED of lobes.def. (tables.c) */
+int lobe_is_tabled(int index);
+
+/* Copies the tables that scene->table's parameters name into scene->tables, once each, and puts their places there, in
+ * bytes, into the handles. Materials are checked by lobe_check_table before. 0: out of memory. (tables.c) */
+int lobe_tables_gather(lobe_scene *scene);
+
+/* Adds base to every handle. (tables.c) */
+void lobe_tables_rebase(lobe_scene *scene, uint64_t base);
+
+/* Whether the table of materials[i], if it has one, begins with its own length. (tables.c) */
+lobe_status lobe_check_table(const lobe_bsdf *materials, size_t i);
 
 /* The table of microfacet/profile.h for a density of slopes f, up to a factor; untouched on failure. (profile_table.c) */
 lobe_status lobe_profile_make(float *table, lobe_profile_function f, void *context);

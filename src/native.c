@@ -208,10 +208,10 @@ static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 	return LOBE_OK;
 }
 
-/* A scene's tables serve as they are. */
+/* A scene's parameters and tables serve as they are. */
 static lobe_status native_scene_create(lobe_scene *scene)
 {
-	(void)scene;
+	lobe_tables_rebase(scene, (uint64_t)(uintptr_t)scene->tables);
 	return LOBE_OK;
 }
 

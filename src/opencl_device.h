@@ -56,6 +56,7 @@ typedef struct {
 	lobe_cl_program *program;
 	cl_mem table[LOBE_COUNT]; /* of each lobe that the scene has */
 	cl_mem slot;              /* scene->slot, with LOBE_CL_NO_SLOT */
+	cl_mem tables;            /* scene->tables, or NULL */
 	int lobe_count;           /* lobes that the scene has */
 	int last_lobe;            /* one of them */
 } lobe_cl_scene;

@@ -107,6 +107,8 @@ static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t fir
 	a.next = 2;
 	a.error = CL_SUCCESS;
 	put_mem(&a, state->table[lobe]);
+	if (lobe_is_tabled(lobe))
+		put_mem(&a, state->tables);
 	if (how != LOBE_CL_ONE)
 		put_mem(&a, state->slot);
 	if (how == LOBE_CL_MANY)

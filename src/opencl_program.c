@@ -181,6 +181,8 @@ static lobe_status fill_state(lobe_cl_device *device, const lobe_scene *scene, l
 		state->last_lobe = lobe;
 		status = upload(device, scene->table[lobe].params, count * lobe_param_size[lobe], &state->table[lobe]);
 	}
+	if (status == LOBE_OK && scene->table_words)
+		status = upload(device, scene->tables, scene->table_words * sizeof *scene->tables, &state->tables);
 	if (status == LOBE_OK)
 		status = upload_slots(device, scene, &state->slot);
 	return status;
@@ -193,6 +195,8 @@ static void release_state(lobe_cl_device *device, lobe_cl_scene *state)
 		if (state->table[lobe])
 			device->cl->clReleaseMemObject(state->table[lobe]);
 	}
+	if (state->tables)
+		device->cl->clReleaseMemObject(state->tables);
 	if (state->slot)
 		device->cl->clReleaseMemObject(state->slot);
 	free(state);

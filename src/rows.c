@@ -21,7 +21,7 @@
  * put where it belongs: clang would fetch a small struct the way it passes one, two floats in a register, and gcc does
  * not see that a struct behind a pointer keeps clear of the outputs; either then gives up vectorising. */
 typedef float __attribute__((may_alias)) word;
-enum { WORDS = sizeof(PARAMS) / 4, WORDS_MAX = 32 };
+enum { WORDS = sizeof(PARAMS) / 4, WORDS_MAX = 64 };
 typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 
 #define ONE  0
@@ -37,7 +37,9 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 #define FETCH(which)                                                                                                   \
 	PARAMS p;                                                                                                      \
 	FETCH_4(0, which) FETCH_4(4, which) FETCH_4(8, which) FETCH_4(12, which)                                       \
-	FETCH_4(16, which) FETCH_4(20, which) FETCH_4(24, which) FETCH_4(28, which)
+	FETCH_4(16, which) FETCH_4(20, which) FETCH_4(24, which) FETCH_4(28, which)                                    \
+	FETCH_4(32, which) FETCH_4(36, which) FETCH_4(40, which) FETCH_4(44, which)                                    \
+	FETCH_4(48, which) FETCH_4(52, which) FETCH_4(56, which) FETCH_4(60, which)
 /* clang-format on */
 
 /* clang's cost model would leave a cheap lobe's gathers scalar on SSE2. */

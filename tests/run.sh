@@ -1,24 +1,21 @@
 #!/bin/sh
-# run.sh - runs test programs and scripts one by one and adds up their Unity summaries.
+# run.sh - runs test programs and scripts, as many at a time as there are processors, and adds up their Unity summaries.
 #
 #	run.sh PROGRAM-OR-SCRIPT ...
 #
 # The last line is "N passed, N failed[, N skipped]"; the exit status is 0 when none failed. A program that crashes or
-# prints no summary counts as one failure.
+# prints no summary counts as one failure. LOBE_TEST_JOBS sets how many run at a time.
 set -u
 logs=build/tests/logs
-mkdir -p "$logs"
-passed=0 failed=0 skipped=0
-count=$# at=0
-started=$(date +%s)
-for test in "$@"; do
-	at=$((at + 1))
-	name=$(basename "$test")
+
+# one TEST: its line, and its counts in $logs/NAME.count.
+one() {
+	name=$(basename "$1")
 	log=$logs/$name.log
 	before=$(date +%s)
-	case $test in
-	*.sh) sh "$test" >"$log" 2>&1 ;;
-	*) "./$test" >"$log" 2>&1 ;;
+	case $1 in
+	*.sh) sh "$1" >"$log" 2>&1 ;;
+	*) "./$1" >"$log" 2>&1 ;;
 	esac
 	status=$?
 	seconds=$(($(date +%s) - before))
@@ -32,13 +29,36 @@ for test in "$@"; do
 	else
 		p=0 f=1 s=0
 	fi
+	echo "$p $f $s" >"$logs/$name.count"
+	# One write, so that lines of tests that end together do not mix.
+	{
+		printf '[%2d/%d] %-28s %4d passed %3d failed %3d skipped %5d s\n' \
+			"$(ls "$logs" | grep -c '\.count$')" "$LOBE_TEST_COUNT" "$name" $p $f $s $seconds
+		grep -E ':(FAIL|IGNORE)' "$log" | sed 's/^/        /'
+		if [ $f -gt 0 ] && ! grep -q ':FAIL' "$log"; then
+			echo "        exit status $status; the end of $log:"
+			tail -n 15 "$log" | sed 's/^/        /'
+		fi
+	} >"$logs/$name.line"
+	cat "$logs/$name.line"
+}
+
+if [ "${1:-}" = --one ]; then
+	one "$2"
+	exit 0
+fi
+
+mkdir -p "$logs"
+rm -f "$logs"/*.count
+LOBE_TEST_COUNT=$#
+export LOBE_TEST_COUNT
+started=$(date +%s)
+printf '%s\n' "$@" | xargs -P "${LOBE_TEST_JOBS:-$(nproc 2>/dev/null || echo 2)}" -n 1 sh tests/run.sh --one
+passed=0 failed=0 skipped=0
+for test in "$@"; do
+	p=0 f=1 s=0
+	! [ -f "$logs/$(basename "$test").count" ] || read -r p f s <"$logs/$(basename "$test").count"
 	passed=$((passed + p)) failed=$((failed + f)) skipped=$((skipped + s))
-	printf '[%2d/%d] %-28s %4d passed %3d failed %3d skipped %5d s\n' $at "$count" "$name" $p $f $s $seconds
-	grep -E ':(FAIL|IGNORE)' "$log" | sed 's/^/        /'
-	if [ $f -gt 0 ] && ! grep -q ':FAIL' "$log"; then
-		echo "        exit status $status; the end of $log:"
-		tail -n 15 "$log" | sed 's/^/        /'
-	fi
 done
 echo "all of it took $(($(date +%s) - started)) s; logs are in $logs"
 if [ $skipped -gt 0 ]; then

@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.." || exit 1
 . tests/unit.sh
 out=build/tests/sources
 mkdir -p $out
-lobes=$(sed -n 's/^LOBE_X.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
+lobes=$(sed -n 's/^LOBE_X[A-Z_]*.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
 
 # all_sources COMPILER: every C file of the library, and the examples that need nothing else.
 all_sources() {
@@ -83,7 +83,7 @@ listed() {
 		name=$(basename "$header" .h)
 		[ "$name" != lobes ] || continue
 		upper=$(echo "$name" | tr a-z A-Z)
-		grep -q "^LOBE_X($upper, $name, [0-9]*)" include/lobe/lobes/lobes.def &&
+		grep -Eq "^LOBE_X(_TABLED)?\($upper, $name, [0-9]*\)" include/lobe/lobes/lobes.def &&
 			grep -q "\"$name.h\"" include/lobe/lobes/lobes.h &&
 			grep -q "define LOBE_HAS_$upper LOBE_HAS_DEFAULT" include/lobe/config.h &&
 			grep -q "define LOBE_HAS_ALL .*LOBE_HAS_$upper" include/lobe/config.h || {

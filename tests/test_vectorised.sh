@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.." || exit 1
 out=build/tests/vectorised
 mkdir -p $out
 
-lobes=$(sed -n 's/^LOBE_X.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
+lobes=$(sed -n 's/^LOBE_X[A-Z_]*.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' include/lobe/lobes/lobes.def)
 lines=$(grep -n '^ROW_' src/rows.c | cut -d: -f1)
 
 # widest COMPILER ISA-FLAGS: the vector that its remarks must name; gcc counts bytes, clang elements.
