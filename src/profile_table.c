@@ -155,7 +155,7 @@ static void write_curve(const piece *pieces, float *words)
 	}
 }
 
-/* The rules of the steeper half of every node of the tree over the pieces: node n at depth d, of the pieces from first on. */
+/* What the rules of the steeper halves of the tree over the pieces are made from, and where they go. */
 typedef struct {
 	const double *s, *m;  /* 1/r and r dF of every ring, from the flattest on */
 	const size_t *starts; /* [piece]: its first ring; one more for the end */

@@ -208,7 +208,6 @@ typedef struct {
 	double s, z;
 } view;
 
-/* With r = z + e: what is left of s r - z, exactly. */
 static double hidden_weight(void *context, double r)
 {
 	const view *v = context;

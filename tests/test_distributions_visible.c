@@ -81,7 +81,7 @@ static double steepness(lobe_vec3 m) { return hypot((double)m.x, (double)m.y) / 
 
 /* --- cumulative distributions -------------------------------------------------------------------------------------- */
 
-enum { RINGS = 24 };
+enum { RINGS = 16 };
 
 /* Steeper than this nothing is told apart: the horizon is 1e-15 away. */
 #define FLAT 1e15
@@ -146,7 +146,6 @@ static void test_azimuth(void)
 	for (size_t k = 0; k < sizeof z / sizeof *z; k++) {
 		const float height = (float)z[k];
 		const double end = z[k] >= 1.0 ? PI : 2.0 * asin(sqrt(0.5 * (1.0 + (double)height)));
-		const double all = (double)height * end + sin(end);
 		double before = -10.0;
 		for (int i = 0; i <= 2000; i++) {
 			const float u = i < 1990 ? (float)i / 2000.0f : 1.0f - ldexpf(1.0f, 1976 - i);
@@ -168,7 +167,6 @@ static void test_azimuth(void)
 			TEST_ASSERT_TRUE_MESSAGE(psi >= before - 2e-6, "azimuth out of order");
 			before = psi;
 		}
-		(void)all;
 	}
 	measured("cumulative distribution of the azimuth", worst, 1e-6);
 }

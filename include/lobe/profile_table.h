@@ -36,9 +36,10 @@ LOBE_API lobe_status lobe_distribution_student_t(lobe_distribution *out, float *
 /* Relative density of slopes at steepness tan_theta > 0: a finite number >= 0, the same for the same tan_theta. */
 typedef double (*lobe_profile_function)(void *context, double tan_theta);
 
-/* Any isotropic distribution of width 1: D(m) cos^4 theta = c f(tan theta), with the factor c that makes it one. f is asked
- * for tan_theta between 4e-18 and 1.3e19. It may be 0 in parts, may jump, and may have peaks, if they are wider than 1/200 of
- * their own steepness. Between knots f is smoothed: the density that lobe_distribution_density() gives is that of the table.
+/* Any isotropic distribution of width 1: D(m) cos^4 theta = c f(tan theta), with the factor c that makes it one. f is
+ * asked for tan_theta between 4e-18 and 1.3e19. It may be 0 in parts, may jump, and may have peaks, if they are wider than
+ * 1/100 of their own steepness. Between knots f is smoothed: the density that lobe_distribution_density() gives is that of
+ * the table.
  *
  * LOBE_ERROR_PARAMETER where f is negative or no finite number, is 0 everywhere, cannot be integrated over the plane of
  * slopes, or falls more slowly than tan_theta^-3.002, for then the mean slope, and with it the area seen at grazing, is

@@ -2,11 +2,11 @@
  * clearcoat).
  *
  * Burley 2012, "Physically based shading at Disney", appendix B; Berry 1923; masking for whole gamma: Dimov 2015, "Deriving
- * the Smith shadowing function G1 for gamma in (0, 4]". The functions are those that facet.h explains. alpha is part of the
- * shape: unless gamma = 2, surfaces of two widths are not stretches of one another.
+ * the Smith shadowing function G1 for gamma in (0, 4]". The functions are those that facet.h explains. alpha is part of
+ * the shape: unless gamma = 2, surfaces of two widths are not stretches of one another.
  *
- * With A = alpha^2, w = (A + t)/(1 + t) (t = tan^2) falls from 1 at t = infinity to A at t = 0, and everything is a power of
- * it. In l = -log w, a = -log A and b = gamma - 1:
+ * With A = alpha^2, w = (A + t)/(1 + t) (t = tan^2) falls from 1 at t = infinity to A at t = 0, and everything is a power
+ * of it. In l = -log w, a = -log A and b = gamma - 1:
  *	pi D = pi D(0) (A/w)^gamma,   pi D(0) = ((1 - A)/A) b/(1 - exp(-b a)),   tail = (exp(b l) - 1)/(exp(b a) - 1),
  * of which the limits b -> 0 and a -> 0, where the textbook form is 0/0, come out of (exp(x) - 1)/x and log(1 + x)/x.
  *
@@ -29,7 +29,7 @@ LOBE_FN lobe_real lobe_gtr_one_minus_a(lobe_distribution d)
 	return (LOBE_R(1.0) - d.width) * (LOBE_R(1.0) + d.width);
 }
 
-/* (A/w)^gamma by 1 - A/w = (1 - A) r^2/(A z^2 + r^2) where that is small, else by the quotient. */
+/* (A/w)^gamma, with w/A - 1 = (1 - A) r^2/(A |h|^2) formed directly. */
 LOBE_FN lobe_facet_density lobe_gtr_density(lobe_distribution d, lobe_vec3 h)
 {
 	const lobe_real a = d.width * d.width;

@@ -7,10 +7,10 @@
  * distribution of slopes is.
  *
  * The table holds Q as a function of X = 1 + r^2/t0 and h as one of X = 1 + z/r0, where r0 is the median of r, and t0 is
- * r^2 of tail 15/16, so that a narrow peak on a broad base is resolved. Both fall from their largest value, often over tens of decades: what is interpolated, by cubic polynomials with exact
- * slopes at 257 knots that the host places, is the logarithm of either in the logarithm of X. There powers and
- * exponentials are (nearly) straight, and relative accuracy holds however small a value is. Beyond the last knot both go
- * on as powers.
+ * r^2 of tail 15/16, so that a narrow peak on a broad base is resolved. Both fall from their largest value, often over tens
+ * of decades: what is interpolated, by cubic polynomials with exact slopes at 257 knots that the host places, is the
+ * logarithm of either in the logarithm of X. There powers and exponentials are (nearly) straight, and relative accuracy
+ * holds however small a value is. Beyond the last knot both go on as powers.
  *
  * Errors: phong.h, gtr.h, student_t.h, tabulated.h; all measured by tests/test_distributions.c. */
 #ifndef LOBE_MICROFACET_PROFILE_H
