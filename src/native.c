@@ -10,14 +10,14 @@
 #include "native.h"
 #include "pool.h"
 
-extern const lobe_split lobe_split_baseline;
+extern const lobe_native_split lobe_native_split_baseline;
 #ifdef LOBE_X86
-extern const lobe_split lobe_split_avx2, lobe_split_avx512;
+extern const lobe_native_split lobe_native_split_avx2, lobe_native_split_avx512;
 #endif
 
 typedef struct {
 	const char *name;
-	const lobe_split *split;
+	const lobe_native_split *split;
 	int runs_here;
 } isa;
 
@@ -25,19 +25,19 @@ typedef struct {
 static void list_isas(isa *list)
 {
 #ifdef LOBE_X86
-	list[LOBE_ISA_AVX512] = (isa){"avx512", &lobe_split_avx512,
+	list[LOBE_ISA_AVX512] = (isa){"avx512", &lobe_native_split_avx512,
 				      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
 					      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")};
 	list[LOBE_ISA_AVX2] =
-		(isa){"avx2", &lobe_split_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
+		(isa){"avx2", &lobe_native_split_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
 #endif
-	list[LOBE_ISA_BASELINE] = (isa){"baseline", &lobe_split_baseline, 1};
+	list[LOBE_ISA_BASELINE] = (isa){"baseline", &lobe_native_split_baseline, 1};
 }
 
 typedef struct {
 	lobe_device base;
 	const lobe_rows *rows[LOBE_COUNT]; /* NULL: not linked */
-	const lobe_split *split;
+	const lobe_native_split *split;
 	size_t threads;
 	lobe_pool *pool;
 	lobe_native_scratch *scratch;                 /* [threads] */
