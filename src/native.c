@@ -47,15 +47,13 @@ typedef struct {
 
 /* --- device ------------------------------------------------------------------------------------------------------ */
 
-/* Elements of a chunk. A batch that is short in time is one, which the caller's thread shades alone; of others each
- * thread gets a few, so that one that wakes late or is disturbed takes fewer. Multiples of a page of floats: threads
- * share no cache line of a packed array, but where the array's start has them share one. */
+/* Elements of a chunk. One thread takes all at once, and so does the caller's where a batch is short in time; else each
+ * thread gets a few chunks, so that one that wakes late or is disturbed takes fewer. Multiples of a page of floats:
+ * threads share no cache line of a packed array, but where the array's start has them share one. */
 static size_t chunk_size(const native_device *device, size_t count, double cost)
 {
 	const size_t page = 1024, few = 4;
-	if (device->threads == 1)
-		return LOBE_NATIVE_CHUNK;
-	if ((double)count * cost <= LOBE_NATIVE_ALONE)
+	if (device->threads == 1 || (double)count * cost <= LOBE_NATIVE_ALONE)
 		return count;
 	const size_t share = (count / (few * device->threads) + page) / page * page;
 	return share < LOBE_NATIVE_CHUNK ? share : LOBE_NATIVE_CHUNK;

@@ -6,8 +6,8 @@
 #include "rows.h"
 #include "native_split.h"
 
-/* The most elements of a chunk: their arrays stay in the second-level cache. */
-#define LOBE_NATIVE_CHUNK 8192
+/* The most elements of a chunk: a thread that is put aside with one in hand keeps the others waiting so long. */
+#define LOBE_NATIVE_CHUNK 65536
 /* Nanoseconds of shading up to which a batch stays on the caller's thread: below, waking another costs more than it
  * saves. (bench/throughput --only scaling shows where.) */
 #ifndef LOBE_NATIVE_ALONE
