@@ -43,12 +43,12 @@ LOBE_NATIVE ?= 1
 # Whose objects depend on nothing that such builds differ in, so that they can share them.
 ROW_DIR ?= $(B)/obj
 
-NATIVE_SOURCES := $(wildcard src/native*.c)
+NATIVE_SOURCES := $(filter-out src/native_split.c,$(wildcard src/native*.c))
 OPENCL_SOURCES := $(wildcard src/opencl*.c)
 NONE_SOURCES := src/native_none.c src/opencl_none.c
-LOOP_SOURCES := src/rows.c src/split.c src/linked.c
-SOURCES := $(filter-out $(NATIVE_SOURCES) $(OPENCL_SOURCES) $(LOOP_SOURCES),$(wildcard src/*.c))
-ROW_OBJECTS := $(foreach i,$(ISAS),$(ROW_DIR)/split_$(i).o $(foreach l,$(LOBES),$(ROW_DIR)/rows_$(i)_$(l).o)) \
+LOOP_SOURCES := src/rows.c src/native_split.c src/linked.c
+SOURCES := $(filter-out $(NATIVE_SOURCES) $(OPENCL_SOURCES) $(LOOP_SOURCES) $(NONE_SOURCES),$(wildcard src/*.c))
+ROW_OBJECTS := $(foreach i,$(ISAS),$(ROW_DIR)/native_split_$(i).o $(foreach l,$(LOBES),$(ROW_DIR)/rows_$(i)_$(l).o)) \
 	$(foreach l,$(LOBES),$(ROW_DIR)/linked_$(l).o)
 ifeq ($(LOBE_NATIVE),0)
 SOURCES += src/native_none.c
@@ -84,9 +84,9 @@ endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))
 
 define SPLIT_RULE
-$(ROW_DIR)/split_$(1).o: src/split.c $(HEADERS) | $(B)/obj
+$(ROW_DIR)/native_split_$(1).o: src/native_split.c $(HEADERS) | $(B)/obj
 	@echo "  cc    $$@"
-	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/split.c -o $$@
+	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/native_split.c -o $$@
 endef
 $(foreach i,$(ISAS),$(eval $(call SPLIT_RULE,$(i))))
 

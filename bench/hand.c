@@ -51,6 +51,31 @@ static double difference(const lobe_batch *b, hand *h)
 	return worst;
 }
 
+static void put(FILE *csv, int verb, size_t n, const char *const *names, const bench_racer *racer, int count,
+		size_t runs)
+{
+	for (int i = 0; i < count; i++) {
+		printf("%-9s %9zu %-24s %9.1f %9.1f - %-9.1f %7.3f %7.3f - %.3f\n", bench_verb_name(verb), n, names[i],
+		       racer[i].rate.median, racer[i].rate.low, racer[i].rate.high, racer[i].ratio.median,
+		       racer[i].ratio.low, racer[i].ratio.high);
+		fprintf(csv, "%s,%zu,%s,%zu,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n", bench_verb_name(verb), n, names[i], runs,
+			racer[i].rate.median, racer[i].rate.low, racer[i].rate.high, racer[i].ratio.median,
+			racer[i].ratio.low, racer[i].ratio.high);
+	}
+}
+
+static int opencl_row(FILE *csv, const bench_arrays *a, int verb, size_t n, size_t runs)
+{
+	static const char *const names[] = {"the library, OpenCL", "a kernel by hand"};
+	bench_racer racer[2];
+	const int done = bench_hand_opencl(a, verb, n, runs, racer);
+	if (done > 0)
+		put(csv, verb, n, names, racer, 2, runs);
+	else if (done < 0)
+		printf("%-9s %9zu %-24s skipped: %s\n", bench_verb_name(verb), n, names[1], lobe_error_message());
+	return done != 0;
+}
+
 static int row(FILE *csv, lobe_device *device, const bench_arrays *a, int verb, size_t n, size_t runs)
 {
 	static const char *const names[] = {"the library", "a loop over the header", "scalar C with libm"};
@@ -70,14 +95,8 @@ static int row(FILE *csv, lobe_device *device, const bench_arrays *a, int verb, 
 		ok = 0;
 	}
 	ok = ok && bench_race(racer, 3, runs);
-	for (int i = 0; ok && i < 3; i++) {
-		printf("%-9s %9zu %-24s %9.1f %9.1f - %-9.1f %7.3f %7.3f - %.3f\n", bench_verb_name(verb), n, names[i],
-		       racer[i].rate.median, racer[i].rate.low, racer[i].rate.high, racer[i].ratio.median,
-		       racer[i].ratio.low, racer[i].ratio.high);
-		fprintf(csv, "%s,%zu,%s,%zu,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n", bench_verb_name(verb), n, names[i], runs,
-			racer[i].rate.median, racer[i].rate.low, racer[i].rate.high, racer[i].ratio.median,
-			racer[i].ratio.low, racer[i].ratio.high);
-	}
+	if (ok)
+		put(csv, verb, n, names, racer, 3, runs);
 	lobe_scene_destroy(shading.scene);
 	return ok;
 }
@@ -100,6 +119,8 @@ int bench_hand(size_t n, size_t runs, const char *path)
 	}
 	for (int i = 0; ok && i < 4; i++)
 		ok = row(csv, device, &a, i % 2 ? BENCH_SAMPLE : BENCH_EVAL_PDF, i < 2 || n < 4096 ? n : 4096, runs);
+	for (int i = 0; ok && i < 2; i++)
+		ok = opencl_row(csv, &a, i ? BENCH_SAMPLE : BENCH_EVAL_PDF, n, runs);
 	lobe_device_close(device);
 	bench_arrays_destroy(&a);
 	return csv && fclose(csv) == 0 && ok;

@@ -10,14 +10,14 @@
 #include "native.h"
 #include "pool.h"
 
-extern const lobe_split lobe_split_baseline;
+extern const lobe_native_split lobe_native_split_baseline;
 #ifdef LOBE_X86
-extern const lobe_split lobe_split_avx2, lobe_split_avx512;
+extern const lobe_native_split lobe_native_split_avx2, lobe_native_split_avx512;
 #endif
 
 typedef struct {
 	const char *name;
-	const lobe_split *split;
+	const lobe_native_split *split;
 	int runs_here;
 } isa;
 
@@ -25,19 +25,19 @@ typedef struct {
 static void list_isas(isa *list)
 {
 #ifdef LOBE_X86
-	list[LOBE_ISA_AVX512] = (isa){"avx512", &lobe_split_avx512,
+	list[LOBE_ISA_AVX512] = (isa){"avx512", &lobe_native_split_avx512,
 				      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
 					      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")};
 	list[LOBE_ISA_AVX2] =
-		(isa){"avx2", &lobe_split_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
+		(isa){"avx2", &lobe_native_split_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
 #endif
-	list[LOBE_ISA_BASELINE] = (isa){"baseline", &lobe_split_baseline, 1};
+	list[LOBE_ISA_BASELINE] = (isa){"baseline", &lobe_native_split_baseline, 1};
 }
 
 typedef struct {
 	lobe_device base;
 	const lobe_rows *rows[LOBE_COUNT]; /* NULL: not linked */
-	const lobe_split *split;
+	const lobe_native_split *split;
 	size_t threads;
 	lobe_pool *pool;
 	lobe_native_scratch *scratch;                 /* [threads] */
@@ -47,15 +47,13 @@ typedef struct {
 
 /* --- device ------------------------------------------------------------------------------------------------------ */
 
-/* Elements of a chunk. A batch that is short in time is one, which the caller's thread shades alone; of others each
- * thread gets a few, so that one that wakes late or is disturbed takes fewer. Multiples of a page of floats: threads
- * share no cache line of a packed array, but where the array's start has them share one. */
+/* Elements of a chunk. One thread takes all at once, and so does the caller's where a batch is short in time; else each
+ * thread gets a few chunks, so that one that wakes late or is disturbed takes fewer. Multiples of a page of floats:
+ * threads share no cache line of a packed array, but where the array's start has them share one. */
 static size_t chunk_size(const native_device *device, size_t count, double cost)
 {
 	const size_t page = 1024, few = 4;
-	if (device->threads == 1)
-		return LOBE_NATIVE_CHUNK;
-	if ((double)count * cost <= LOBE_NATIVE_ALONE)
+	if (device->threads == 1 || (double)count * cost <= LOBE_NATIVE_ALONE)
 		return count;
 	const size_t share = (count / (few * device->threads) + page) / page * page;
 	return share < LOBE_NATIVE_CHUNK ? share : LOBE_NATIVE_CHUNK;

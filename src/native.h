@@ -1,13 +1,13 @@
 /* native.h - what the parts of the native backend share: native.c (devices, instruction sets, threads), native_chunk.c (one
- * chunk of a batch on one thread), rows.c (the loops), split.c (mixed lobes). */
+ * chunk of a batch on one thread), rows.c (the loops), native_split.c (mixed lobes). */
 #ifndef LOBE_NATIVE_H
 #define LOBE_NATIVE_H
 
 #include "rows.h"
-#include "split.h"
+#include "native_split.h"
 
-/* The most elements of a chunk: their arrays stay in the second-level cache. */
-#define LOBE_NATIVE_CHUNK 8192
+/* The most elements of a chunk: a thread that is put aside with one in hand keeps the others waiting so long. */
+#define LOBE_NATIVE_CHUNK 65536
 /* Nanoseconds of shading up to which a batch stays on the caller's thread: below, waking another costs more than it
  * saves. (bench/throughput --only scaling shows where.) */
 #ifndef LOBE_NATIVE_ALONE
@@ -28,11 +28,11 @@ typedef struct {
 
 /* A thread's own memory: elements of a block, packed; and sorted by key. */
 typedef struct {
-	uint32_t material[LOBE_SPLIT_MAX], slots[LOBE_SPLIT_MAX], place[LOBE_SPLIT_MAX];
-	uint32_t slot[LOBE_SPLIT_ROOM];
-	float packed_in[LOBE_IN_COUNT][LOBE_SPLIT_MAX], in[LOBE_IN_COUNT][LOBE_SPLIT_ROOM];
-	float packed_out[LOBE_OUT_COUNT][LOBE_SPLIT_MAX], out[LOBE_OUT_COUNT][LOBE_SPLIT_ROOM];
-	uint32_t packed_event[LOBE_SPLIT_MAX], event[LOBE_SPLIT_ROOM];
+	uint32_t material[LOBE_NATIVE_SPLIT_MAX], slots[LOBE_NATIVE_SPLIT_MAX], place[LOBE_NATIVE_SPLIT_MAX];
+	uint32_t slot[LOBE_NATIVE_SPLIT_ROOM];
+	float packed_in[LOBE_IN_COUNT][LOBE_NATIVE_SPLIT_MAX], in[LOBE_IN_COUNT][LOBE_NATIVE_SPLIT_ROOM];
+	float packed_out[LOBE_OUT_COUNT][LOBE_NATIVE_SPLIT_MAX], out[LOBE_OUT_COUNT][LOBE_NATIVE_SPLIT_ROOM];
+	uint32_t packed_event[LOBE_NATIVE_SPLIT_MAX], event[LOBE_NATIVE_SPLIT_ROOM];
 	unsigned char apart[64]; /* the next thread's is in other cache lines */
 } lobe_native_scratch;
 
@@ -41,7 +41,7 @@ typedef struct {
 	const lobe_scene *scene;
 	const lobe_job *job;
 	const lobe_rows *const *rows;
-	const lobe_split *split;
+	const lobe_native_split *split;
 	lobe_native_scratch *scratch; /* [threads] */
 	size_t chunk;
 	double nanoseconds; /* that an element of the first chunk took, set when it is done */

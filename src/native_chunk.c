@@ -12,7 +12,7 @@
 
 lobe_status lobe_native_scene_create(lobe_scene *scene)
 {
-	const int by_material = scene->count <= LOBE_SPLIT_MATERIALS;
+	const int by_material = scene->count <= LOBE_NATIVE_SPLIT_MATERIALS;
 	lobe_native_scene *const state = calloc(1, sizeof *state + scene->count * sizeof *state->key);
 	if (!state)
 		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_scene_create: out of memory");
@@ -119,7 +119,7 @@ static void shade_key(const lobe_native_job *j, lobe_native_scratch *s, int lobe
 	}
 	/* Whole vectors: what is behind the last element is ours, and nobody reads what comes of it. */
 	uint32_t *const slot = state->by_material ? NULL : s->slot + at;
-	const size_t all = (n + LOBE_SPLIT_VECTOR - 1) / LOBE_SPLIT_VECTOR * LOBE_SPLIT_VECTOR;
+	const size_t all = (n + LOBE_NATIVE_SPLIT_VECTOR - 1) / LOBE_NATIVE_SPLIT_VECTOR * LOBE_NATIVE_SPLIT_VECTOR;
 	for (size_t i = n; slot && i < all; i++)
 		slot[i] = slot[0];
 	run_row(j, lobe, slot, key - state->first_key[lobe], all, in, out);
@@ -132,7 +132,7 @@ static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const 
 	const int sample = lobe_verb_is_sample(j->job->verb);
 	const void *from[LOBE_IN_COUNT + 1], *results[LOBE_OUT_COUNT];
 	void *to[LOBE_IN_COUNT + 1], *wanted[LOBE_OUT_COUNT];
-	uint32_t begin[LOBE_SPLIT_KEYS], count[LOBE_SPLIT_KEYS];
+	uint32_t begin[LOBE_NATIVE_SPLIT_KEYS], count[LOBE_NATIVE_SPLIT_KEYS];
 	int inputs = LOBE_IN_COUNT, outputs = 0;
 	j->split->sort(s->place, begin, count, state->key, state->keys, b->material, b->n);
 	for (int k = 0; k < LOBE_IN_COUNT; k++) {
@@ -207,7 +207,7 @@ static size_t block_size(const lobe_native_job *j, int whole)
 	const lobe_job *const job = j->job;
 	int apart = job->material && (job->material_stride != 4 || j->scene->count > 1);
 	if (whole < 0)
-		return LOBE_SPLIT_MAX;
+		return LOBE_NATIVE_SPLIT_MAX;
 	for (int k = 0; k < LOBE_IN_COUNT; k++)
 		apart |= job->in_stride[k] != 4;
 	for (int k = 0; k < LOBE_OUT_COUNT; k++)

@@ -11,19 +11,20 @@ typedef struct {
 	const char *name;
 	uintptr_t at; /* 0: not there */
 	size_t stride;
+	uintptr_t last; /* its last word, once check_array has passed it */
 } array;
 
 static void list_arrays(array *a, const lobe_job *job, int sample)
 {
 	for (int i = 0; i < LOBE_OUT_COUNT; i++)
-		a[i] = (array){lobe_out_names[sample][i], (uintptr_t)job->out[i], job->out_stride[i]};
+		a[i] = (array){lobe_out_names[sample][i], (uintptr_t)job->out[i], job->out_stride[i], 0};
 	for (int i = 0; i < LOBE_IN_COUNT; i++)
-		a[LOBE_OUT_COUNT + i] = (array){lobe_in_names[sample][i], (uintptr_t)job->in[i], job->in_stride[i]};
-	a[ARRAYS - 1] = (array){"material", (uintptr_t)job->material, job->material_stride};
+		a[LOBE_OUT_COUNT + i] = (array){lobe_in_names[sample][i], (uintptr_t)job->in[i], job->in_stride[i], 0};
+	a[ARRAYS - 1] = (array){"material", (uintptr_t)job->material, job->material_stride, 0};
 }
 
 /* Its first and last byte are in memory, its words and their distance aligned. */
-static lobe_status check_array(const array *a, size_t count, const char *call)
+static lobe_status check_array(array *a, size_t count, const char *call)
 {
 	const int vector = (int)strcspn(a->name, "[");
 	if (a->at % 4)
@@ -36,27 +37,23 @@ static lobe_status check_array(const array *a, size_t count, const char *call)
 		return lobe_fail(LOBE_ERROR_ARGUMENT,
 				 "%s: batch->count is %zu, too many for memory from batch->%s on, %zu bytes apart",
 				 call, count, a->name, a->stride);
+	a->last = a->at + (count - 1) * a->stride;
 	return LOBE_OK;
 }
 
-/* Whether two arrays that check_array has passed share a word. Members of one struct lie between each other and do not. */
-static int overlap(const array *a, const array *b, size_t count)
+/* Whether two arrays whose spans meet share a word. Members of one struct lie between each other and do not. */
+static int overlap(const array *a, const array *b)
 {
-	const uintptr_t a_last = a->at + (count - 1) * a->stride, b_last = b->at + (count - 1) * b->stride;
-	if (a->at > b_last || b->at > a_last)
-		return 0;
 	if (a->stride < b->stride)
-		return overlap(b, a, count);
-	/* From the first word of a that is not before b to the last that is not behind it: is one of them at a multiple
-	 * of b's stride? Where they stand between two of those repeats, after no more steps than b has words between. */
+		return overlap(b, a);
+	/* From the first word of a that is not before b on: is one a multiple of b's stride away from b? What remains of
+	 * the distance repeats after as many steps as b's stride has words, at most. */
 	const uintptr_t skipped = a->at < b->at ? (b->at - a->at + a->stride - 1) / a->stride * a->stride : 0;
 	const size_t period = a->stride % b->stride == 0 ? 1 : b->stride / 4;
-	size_t distance = a->at + skipped - b->at;
-	for (size_t i = 0; i < period && distance <= b_last - b->at && skipped + i * a->stride <= a_last - a->at; i++) {
-		if (distance % b->stride == 0)
+	uintptr_t at = a->at + skipped;
+	for (size_t i = 0; i < period && at <= a->last && at <= b->last; i++, at += a->stride)
+		if ((at - b->at) % b->stride == 0)
 			return 1;
-		distance += a->stride;
-	}
 	return 0;
 }
 
@@ -71,7 +68,7 @@ lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call)
 	}
 	for (int i = 0; i < LOBE_OUT_COUNT; i++)
 		for (int k = i + 1; a[i].at && k < ARRAYS; k++)
-			if (a[k].at && overlap(&a[i], &a[k], job->count))
+			if (a[k].at && a[i].at <= a[k].last && a[k].at <= a[i].last && overlap(&a[i], &a[k]))
 				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s overlaps batch->%s", call,
 						 a[i].name, a[k].name);
 	return LOBE_OK;

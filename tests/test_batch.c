@@ -356,6 +356,58 @@ static void test_results_and_subsets(void)
 	}
 }
 
+/* Scenes of few and of many materials, in random order and in runs, give what the shading functions give: they are sorted
+ * by material, by lobe, or not at all. */
+static void test_many_materials(void)
+{
+	static const size_t counts[] = {2, 9, 10, 31, 32, 33, 100};
+	static const char *const isas[] = {"baseline", "avx2", "avx512"};
+	lobe_bsdf m[100];
+	memset(m, 0, sizeof m);
+	for (size_t i = 0; i < 100; i++) {
+		const float x = 0.1f + 0.008f * (float)i;
+		if (i % 4 == 0)
+			m[i] = lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(x, 0.5f, 1.0f + x));
+		else if (i % 4 == 1)
+			m[i] = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(x, 0.5f, 1 - x)));
+		else if (i % 4 == 2)
+			m[i] = lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(
+				x, 0.2f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
+		/* else LOBE_KIND_NONE */
+	}
+	for (size_t test = 0; test < 3 * sizeof counts / sizeof *counts; test++) {
+		const uint32_t count = (uint32_t)counts[test / 3];
+		lobe_device *d;
+		lobe_scene *s;
+		setenv("LOBE_ISA", isas[test % 3], 1);
+		const lobe_status status = lobe_device_open(&d, "native:1");
+		unsetenv("LOBE_ISA");
+		if (status != LOBE_OK)
+			continue; /* no such instructions here */
+		for (uint32_t i = 0; i < N; i++)
+			material[i] = test_bits(50, i & 512 ? i : i / 64) % count;
+		lobe_batch b = good_batch();
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_create(&s, d, m, count), lobe_error_message());
+		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
+		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(s, &b));
+		for (int i = 0; i < N; i++) {
+			const lobe_vec3 wo = lobe_vec3_make(in[0][i], in[1][i], in[2][i]);
+			const lobe_vec3 wi = lobe_vec3_make(in[3][i], in[4][i], in[5][i]);
+			const lobe_sample r =
+				lobe_bsdf_sample(m[material[i]], wo, lobe_vec3_make(in[6][i], in[7][i], in[8][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(lobe_bsdf_eval(m[material[i]], wo, wi).g),
+						test_float_bits(out[1][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(lobe_bsdf_pdf(m[material[i]], wo, wi)),
+						test_float_bits(out[3][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(r.wi.x), test_float_bits(out[4][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(r.weight.b), test_float_bits(out[9][i]));
+			TEST_ASSERT_EQUAL_HEX32(r.event, event[i]);
+		}
+		lobe_scene_destroy(s);
+		lobe_device_close(d);
+	}
+}
+
 /* LOBE_KIND_NONE among the materials shades to nothing, and nothing else is disturbed. */
 static void test_no_lobe(void)
 {
@@ -473,6 +525,7 @@ int main(void)
 	RUN_TEST(test_misaligned);
 	RUN_TEST(test_overlap);
 	RUN_TEST(test_results_and_subsets);
+	RUN_TEST(test_many_materials);
 	RUN_TEST(test_no_lobe);
 	RUN_TEST(test_elements_are_independent);
 	RUN_TEST(test_threads);

@@ -1,11 +1,12 @@
-/* split.c - sorting the elements of a block by key (split.h), for one instruction set: compiled once for each, with
+/* native_split.c - sorting the elements of a block by key (native_split.h), for one instruction set: compiled once for
+ * each, with
  *	LOBE_ROW_ISA  the instruction set, a suffix, e.g. avx2
  * and that instruction set's compiler options.
  *
  * Both ways the caller's arrays are walked through in order, which the processor foresees, and what is at random stays in
  * the cache. Three arrays share a pass, and a load of the place. That is bound by a store a cycle; packing vectors by
  * key (AVX-512's compress, or permutations) was slower from three keys on, since its stores straddle cache lines. */
-#include "split.h"
+#include "native_split.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
@@ -25,14 +26,14 @@ static void find_begins(uint32_t *restrict begin, const uint32_t *restrict count
 	uint32_t at = 0;
 	for (uint32_t k = 0; k < keys; k++) {
 		begin[k] = at;
-		at += (count[k] + LOBE_SPLIT_VECTOR - 1) / LOBE_SPLIT_VECTOR * LOBE_SPLIT_VECTOR;
+		at += (count[k] + LOBE_NATIVE_SPLIT_VECTOR - 1) / LOBE_NATIVE_SPLIT_VECTOR * LOBE_NATIVE_SPLIT_VECTOR;
 	}
 }
 
 static void sort_counting(uint32_t *restrict place, uint32_t *restrict begin, uint32_t *restrict count,
 			  const uint32_t *restrict key, uint32_t keys, const uint32_t *restrict material, size_t n)
 {
-	uint32_t next[LOBE_SPLIT_KEYS];
+	uint32_t next[LOBE_NATIVE_SPLIT_KEYS];
 	memset(count, 0, keys * sizeof *count);
 	for (size_t i = 0; i < n; i++)
 		count[key[material[i]]]++;
@@ -51,8 +52,8 @@ static void sort(uint32_t *restrict place, uint32_t *restrict begin, uint32_t *r
 		 const uint32_t *restrict key, uint32_t keys, const uint32_t *restrict material, size_t n)
 {
 	const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-	__m512i vector[LOBE_SPLIT_MAX / 16];
-	uint32_t next[LOBE_SPLIT_KEYS];
+	__m512i vector[LOBE_NATIVE_SPLIT_MAX / 16];
+	uint32_t next[LOBE_NATIVE_SPLIT_KEYS];
 	if (keys > 10) {
 		sort_counting(place, begin, count, key, keys, material, n);
 		return;
@@ -139,4 +140,4 @@ static void join(void *const *to, const void *const *from, int arrays, const uin
 		join_1(to[a], from[a], place, n);
 }
 
-const lobe_split PASTE(lobe_split_, LOBE_ROW_ISA) = {look_up, sort, part, join};
+const lobe_native_split PASTE(lobe_native_split_, LOBE_ROW_ISA) = {look_up, sort, part, join};

@@ -1,18 +1,19 @@
-/* split.h - the elements of a block brought together by key, and put back: data movement alone, so every instruction set
- * gives the same bits. split.c is compiled once for each, like the row loops. */
-#ifndef LOBE_SPLIT_H
-#define LOBE_SPLIT_H
+/* native_split.h - the elements of a block brought together by key, and put back: data movement alone, so every
+ * instruction set gives the same bits. native_split.c is compiled once for each, like the row loops. */
+#ifndef LOBE_NATIVE_SPLIT_H
+#define LOBE_NATIVE_SPLIT_H
 
 #include "internal.h"
 
 enum {
-	LOBE_SPLIT_MAX = 2048,  /* elements of a block */
-	LOBE_SPLIT_VECTOR = 16, /* each key's elements begin at a multiple of this */
+	LOBE_NATIVE_SPLIT_MAX = 2048,  /* elements of a block */
+	LOBE_NATIVE_SPLIT_VECTOR = 16, /* each key's elements begin at a multiple of this */
 	/* Scenes of no more materials are split by material, so that their parameters are constants of the loops; others
 	 * by lobe. */
-	LOBE_SPLIT_MATERIALS = 32,
-	LOBE_SPLIT_KEYS = (LOBE_COUNT > LOBE_SPLIT_MATERIALS ? (int)LOBE_COUNT : (int)LOBE_SPLIT_MATERIALS) + 1,
-	LOBE_SPLIT_ROOM = LOBE_SPLIT_MAX + LOBE_SPLIT_KEYS * LOBE_SPLIT_VECTOR
+	LOBE_NATIVE_SPLIT_MATERIALS = 32,
+	LOBE_NATIVE_SPLIT_KEYS =
+		(LOBE_COUNT > LOBE_NATIVE_SPLIT_MATERIALS ? (int)LOBE_COUNT : (int)LOBE_NATIVE_SPLIT_MATERIALS) + 1,
+	LOBE_NATIVE_SPLIT_ROOM = LOBE_NATIVE_SPLIT_MAX + LOBE_NATIVE_SPLIT_KEYS * LOBE_NATIVE_SPLIT_VECTOR
 };
 
 typedef struct {
@@ -26,6 +27,6 @@ typedef struct {
 	void (*part)(void *const *to, const void *const *from, int arrays, const uint32_t *place, size_t n);
 	/* to[a][i] = from[a][place[i]] */
 	void (*join)(void *const *to, const void *const *from, int arrays, const uint32_t *place, size_t n);
-} lobe_split;
+} lobe_native_split;
 
 #endif
