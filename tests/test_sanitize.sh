@@ -23,8 +23,8 @@ clean() {
 		UBSAN_OPTIONS=print_stacktrace=1 "$out/tests/$1"
 }
 
-for program in test_batch test_async test_vectors test_opencl test_opencl_none test_opencl_faults test_opencl_cache test_core \
-	test_real test_warp test_fresnel test_ggx test_lobes_extremes; do
+for program in test_batch test_async test_vectors test_opencl test_opencl_none test_opencl_faults test_opencl_cache test_opencl_all \
+	test_fallback test_core test_real test_warp test_fresnel test_ggx test_lobes_extremes; do
 	check "$program builds" sanitized $program
 	check "$program runs clean" clean $program
 done
