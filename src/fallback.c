@@ -59,10 +59,11 @@ static lobe_status scene_create(lobe_scene *scene)
 	pair_scene *const state = calloc(1, sizeof *state);
 	if (!state)
 		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
-	if (device->first && !is_lost(device)) {
+	lobe_device *const first = is_lost(device) ? NULL : device->first;
+	if (first) {
 		lobe_message before;
 		lobe_message_get(&before);
-		const lobe_status status = lobe_scene_share(&state->first, scene, device->first);
+		const lobe_status status = lobe_scene_share(&state->first, scene, first);
 		state->has_first = status == LOBE_OK;
 		if (status != LOBE_OK) {
 			note(device, status);
@@ -71,8 +72,8 @@ static lobe_status scene_create(lobe_scene *scene)
 	}
 	const lobe_status status = lobe_scene_share(&state->native, scene, device->native);
 	if (status != LOBE_OK) {
-		if (state->has_first)
-			device->first->ops->scene_destroy(&state->first);
+		if (first && state->has_first)
+			first->ops->scene_destroy(&state->first);
 		free(state);
 		return status;
 	}

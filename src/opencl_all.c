@@ -41,8 +41,8 @@ static void close_all(lobe_device *base)
 {
 	all_device *const device = (all_device *)base;
 	lobe_pool_destroy(device->pool);
-	for (size_t i = 0; i < device->count; i++)
-		device->member[i]->ops->close(device->member[i]);
+	for (size_t i = 0; device->member && i < device->count; i++)
+		lobe_device_close(device->member[i]);
 	pthread_mutex_destroy(&device->lock);
 	free(device->member);
 	free(device->failed);

@@ -24,7 +24,7 @@ clean() {
 }
 
 for program in test_batch test_strides test_async test_vectors test_opencl test_opencl_none test_opencl_faults test_opencl_cache \
-	test_core test_real test_warp test_fresnel test_ggx test_linear test_slopes test_lobes_extremes; do
+	test_opencl_all test_fallback test_core test_real test_warp test_fresnel test_ggx test_linear test_slopes test_lobes_extremes; do
 	check "$program builds" sanitized $program
 	check "$program runs clean" clean $program
 done
