@@ -23,8 +23,8 @@ LOBES := $(shell sed -n 's/^LOBE_X[A-Z_]*.[A-Z0-9_]*, \([a-z0-9_]*\),.*/\1/p' in
 ISAS := baseline
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine 2>/dev/null)))
 ISAS += avx2 avx512
-LIB_CFLAGS += -DLOBE_X86
 endif
+LIB_CFLAGS += $(if $(filter avx2,$(ISAS)),-DLOBE_X86)
 ISA_baseline :=
 ISA_avx2 := -mavx2 -mfma
 ISA_avx512 := -mavx2 -mfma -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512

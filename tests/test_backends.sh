@@ -74,7 +74,7 @@ check "LOBE_OPENCL=0: no OpenCL in the library" without no_opencl 'opencl'
 check "LOBE_OPENCL=0: opening opencl says so, native shades" uses no_opencl native opencl
 check "LOBE_OPENCL=0: smaller" smaller no_opencl 20000
 check "LOBE_NATIVE=0 builds" builds no_native LOBE_NATIVE
-check "LOBE_NATIVE=0: no loop in the library" without no_native 'rows|native|pool|linked'
+check "LOBE_NATIVE=0: no loop in the library" without no_native 'rows|native|linked'
 uses no_native opencl native >$out/said 2>&1
 case $? in
 0) pass "LOBE_NATIVE=0: opening native says so, OpenCL shades" ;;

@@ -20,7 +20,7 @@ add_lobe() {
 	sed -i 's|^#undef LOBE_X_TABLED|#if LOBE_HAS_HUNDREDTH\nLOBE_X(HUNDREDTH, hundredth, 255)\n#endif\n&|' $lists/lobes/lobes.def
 	sed -i '$s|^#endif|#if LOBE_HAS_HUNDREDTH\n#include "hundredth.h"\n#endif\n&|' $lists/lobes/lobes.h
 	sed -i '0,/^#ifndef LOBE_HAS_LAMBERT/s||#ifndef LOBE_HAS_HUNDREDTH\n#define LOBE_HAS_HUNDREDTH LOBE_HAS_DEFAULT\n#endif\n&|' $lists/config.h
-	sed -i 's|^#define LOBE_HAS_ALL (|&LOBE_HAS_HUNDREDTH \&\& |' $lists/config.h
+	sed -i 's|(LOBE_HAS_LAMBERT |(LOBE_HAS_HUNDREDTH \&\& LOBE_HAS_LAMBERT |' $lists/config.h
 	grep -q HUNDREDTH $lists/lobes/lobes.def && grep -q HUNDREDTH $lists/lobes/lobes.h &&
 		[ "$(grep -c HUNDREDTH $lists/config.h)" = 3 ]
 }
