@@ -297,7 +297,7 @@ static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const 
 	if (status != LOBE_OK)
 		return status;
 	job->verb = sample ? sample_verb(job) : eval_verb(job);
-	return scene->device->takes_strides ? scene->device->ops->run(scene, job) : lobe_run_packed(scene, job);
+	return lobe_run_job(scene, job);
 }
 
 static lobe_status run_device(lobe_scene *scene, lobe_job *job, int sample, const char *call)

@@ -192,10 +192,10 @@ static lobe_status run_part(lobe_scene *scene, const lobe_job *job, size_t first
 	return status;
 }
 
-lobe_status lobe_run_packed(lobe_scene *scene, const lobe_job *job)
+lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job)
 {
 	lobe_status status = LOBE_OK;
-	if (packed(job))
+	if (scene->device->takes_strides || packed(job))
 		return scene->device->ops->run(scene, job);
 	unsigned char *const buffer = malloc((LOBE_IN_COUNT + 1 + LOBE_OUT_COUNT) * 4 * LOBE_PACK_MAX);
 	if (!buffer)

@@ -27,7 +27,8 @@ void lobe_unpack(const lobe_strided *s, size_t n);
 /* Alignment, strides and overlap of a job's arrays; LOBE_ERROR_ARGUMENT and a message that names the field. (strides.c) */
 lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call);
 
-/* Runs a job on a device that takes packed arrays alone, in parts that are packed and unpacked here. (strides.c) */
-lobe_status lobe_run_packed(lobe_scene *scene, const lobe_job *job);
+/* Runs a job of host arrays on the scene's device: as it is, or, where the device takes packed arrays alone, in parts that
+ * are packed and unpacked here. (strides.c) */
+lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job);
 
 #endif
