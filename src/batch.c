@@ -358,7 +358,7 @@ static lobe_status prepare_host(lobe_scene *scene, lobe_job *job, int sample, co
 static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
 {
 	const lobe_status status = prepare_host(scene, job, sample, call);
-	return status == LOBE_OK ? lobe_run(scene, job) : status;
+	return status == LOBE_OK ? lobe_run_job(scene, job) : status;
 }
 
 static lobe_status begin_host(lobe_scene *scene, lobe_job *job, int sample, lobe_event **out, const char *call)

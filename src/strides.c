@@ -192,7 +192,7 @@ static lobe_status run_part(lobe_scene *scene, const lobe_job *job, size_t first
 	return status;
 }
 
-lobe_status lobe_run(lobe_scene *scene, const lobe_job *job)
+lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job)
 {
 	lobe_status status = LOBE_OK;
 	if (job->count == 0)

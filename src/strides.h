@@ -29,6 +29,6 @@ lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call)
 
 /* Runs a job that has been checked; on a device that takes packed arrays alone in parts that are packed and unpacked here.
  * (strides.c) */
-lobe_status lobe_run(lobe_scene *scene, const lobe_job *job);
+lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job);
 
 #endif
