@@ -356,10 +356,12 @@ static lobe_status prepare_host(lobe_scene *scene, lobe_job *job, int sample, co
 	return status;
 }
 
+lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job) { return scene->device->ops->run(scene, job); }
+
 static lobe_status run_host(lobe_scene *scene, lobe_job *job, int sample, const char *call)
 {
 	const lobe_status status = prepare_host(scene, job, sample, call);
-	return status == LOBE_OK && job->count ? scene->device->ops->run(scene, job) : status;
+	return status == LOBE_OK && job->count ? lobe_run_job(scene, job) : status;
 }
 
 static lobe_status begin_host(lobe_scene *scene, lobe_job *job, int sample, lobe_event **out, const char *call)

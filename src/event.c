@@ -51,7 +51,7 @@ static lobe_event *new_event(lobe_scene *scene, const lobe_job *job)
 /* Runs in the worker. Once the lock is given back the event may be gone. */
 static void run(lobe_event *e)
 {
-	const lobe_status status = e->scene->device->ops->run(e->scene, &e->job);
+	const lobe_status status = lobe_run_job(e->scene, &e->job);
 	lobe_message *message = NULL;
 	if (status != LOBE_OK && (message = malloc(sizeof *message)) != NULL)
 		lobe_message_get(message);

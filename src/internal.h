@@ -166,6 +166,9 @@ lobe_status lobe_opencl_open_all(lobe_device **out); /* opencl_all.c */
  * with this thread's message as the reason. (fallback.c) */
 lobe_status lobe_fallback_open(lobe_device **out, lobe_device *first, lobe_device *native);
 
+/* Runs a job of host arrays that has been checked, to its end. (batch.c) */
+lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job);
+
 /* out becomes a scene of its own on that device, in which the lists and parameters are from's. (batch.c) */
 lobe_status lobe_scene_share(lobe_scene *out, const lobe_scene *from, lobe_device *device);
 /* lobe_device_open_cl and lobe_device_cl are implemented in opencl.c, lobe_opencl_source in opencl_source.c and
