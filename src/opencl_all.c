@@ -8,7 +8,7 @@
 
 #include "internal.h"
 #include "pool.h"
-#include "opencl_share.h"
+#include "opencl_split.h"
 
 typedef struct {
 	lobe_device base;
@@ -22,7 +22,7 @@ typedef struct {
 /* scene->state */
 typedef struct {
 	lobe_scene *member;                     /* [count] */
-	lobe_measure *measure[LOBE_VERB_COUNT]; /* [count] */
+	lobe_cl_measure *measure[LOBE_VERB_COUNT]; /* [count] */
 } all_scene;
 
 /* A batch on its way. */
@@ -127,9 +127,9 @@ static void run_part(void *context, size_t k, size_t thread)
 static lobe_status run_locked(all_run *r)
 {
 	all_device *const device = r->device;
-	lobe_measure *const m = r->scene->measure[r->job->verb];
+	lobe_cl_measure *const m = r->scene->measure[r->job->verb];
 	lobe_message before;
-	lobe_share(m, device->count, r->job->count, r->cut);
+	lobe_cl_split(m, device->count, r->job->count, r->cut);
 	lobe_message_get(&before);
 	lobe_pool_run(device->pool, run_part, r, device->count);
 	lobe_message_set(&before); /* of a part that ran on this thread */
@@ -138,7 +138,7 @@ static lobe_status run_locked(all_run *r)
 			return lobe_fail(r->status[k], "%s: %.3800s", device->member[k]->name, device->failed[k].text);
 	for (size_t k = 0; k < device->count; k++)
 		if (r->cut[k + 1] > r->cut[k])
-			lobe_measure_add(&m[k], r->cut[k + 1] - r->cut[k], r->seconds[k]);
+			lobe_cl_measure_add(&m[k], r->cut[k + 1] - r->cut[k], r->seconds[k]);
 	return LOBE_OK;
 }
 

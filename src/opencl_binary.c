@@ -44,7 +44,7 @@ void lobe_cl_binary_find_key(const lobe_cl_device *device, lobe_cl_program *p, c
 {
 	char description[6 * TEXT_SIZE];
 	size_t length;
-	if (!describe(device, description, sizeof description, &p->grows) || (p->grows && !lobe_cache_asked_for()))
+	if (!describe(device, description, sizeof description, &p->grows) || (p->grows && !lobe_cl_cache_asked_for()))
 		return;
 	length = strlen(description) + strlen("options \n") + strlen(p->options) + strlen(source[0]) +
 		 strlen(source[1]) + strlen(source[2]);
@@ -60,7 +60,7 @@ void lobe_cl_binary_load(lobe_cl_device *device, lobe_cl_program *p)
 	const lobe_cl_functions *const cl = device->cl;
 	cl_int error = CL_SUCCESS, taken = CL_SUCCESS;
 	size_t size = 0;
-	unsigned char *const binary = p->key ? lobe_cache_get(p->key, p->key_size, &size) : NULL;
+	unsigned char *const binary = p->key ? lobe_cl_cache_get(p->key, p->key_size, &size) : NULL;
 	const unsigned char *from = binary;
 	cl_program program;
 	if (!binary)
@@ -89,7 +89,7 @@ void lobe_cl_binary_store(lobe_cl_device *device, lobe_cl_program *p)
 		return;
 	binary = malloc(size);
 	if (binary && cl->clGetProgramInfo(p->program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS) {
-		lobe_cache_put(p->key, p->key_size, binary, size);
+		lobe_cl_cache_put(p->key, p->key_size, binary, size);
 		p->kept_size = size;
 	}
 	free(binary);

@@ -1,6 +1,6 @@
-/* opencl_cache.c - the cache folder. A file's name is the hash of its key; the key itself stands in the file and is compared, so
- * that a collision finds nothing rather than something wrong, and a checksum over all of it tells a file that is not
- * whole. A file is written under another name and then renamed: readers see the old one or the new one. */
+/* opencl_cache.c - the cache folder. A file's name is the hash of its key; the key itself stands in the file and is
+ * compared, so that a collision finds nothing rather than something wrong, and a checksum over all of it tells a file that
+ * is not whole. A file is written under another name and then renamed: readers see the old one or the new one. */
 #define _POSIX_C_SOURCE 200809L
 #include "opencl_cache.h"
 
@@ -66,7 +66,7 @@ static hash check_of(const header *h, const void *key, const void *data)
 
 /* --- names -------------------------------------------------------------------------------------------------------- */
 
-int lobe_cache_asked_for(void)
+int lobe_cl_cache_asked_for(void)
 {
 	const char *const asked = getenv("LOBE_CACHE_DIR");
 	return asked && *asked;
@@ -174,7 +174,7 @@ static void *get_data(int file, const char *key, size_t key_size, size_t *size)
 	return data;
 }
 
-void *lobe_cache_get(const char *key, size_t key_size, size_t *size)
+void *lobe_cl_cache_get(const char *key, size_t key_size, size_t *size)
 {
 	char name[NAME_SIZE];
 	const int dir = open_folder(0);
@@ -300,7 +300,7 @@ static void trim(int dir)
 	free(list);
 }
 
-void lobe_cache_put(const char *key, size_t key_size, const void *data, size_t size)
+void lobe_cl_cache_put(const char *key, size_t key_size, const void *data, size_t size)
 {
 	char name[NAME_SIZE], temporary[2 * NAME_SIZE];
 	header h;

@@ -11,11 +11,11 @@
 #include "inputs.h"
 #include "internal.h"
 #include "lobe/lobe.h"
-#include "opencl_share.h"
+#include "opencl_split.h"
 #include "support.h"
 #include "unity.h"
 
-enum { MATERIALS = 64 };
+enum { MATERIALS = 16 };
 
 static lobe_bsdf materials[MATERIALS];
 static size_t material_count;
@@ -28,25 +28,25 @@ void tearDown(void) {}
 enum { DEVICES_MAX = 5 };
 
 /* Whole, in order, no device without a part. */
-static void assert_whole(const lobe_measure *m, size_t count, size_t n)
+static void assert_whole(const lobe_cl_measure *m, size_t count, size_t n)
 {
 	size_t to[DEVICES_MAX + 1];
-	lobe_share(m, count, n, to);
+	lobe_cl_split(m, count, n, to);
 	TEST_ASSERT_EQUAL(0, to[0]);
 	TEST_ASSERT_EQUAL(n, to[count]);
 	for (size_t i = 0; i < count; i++) {
 		TEST_ASSERT_LESS_OR_EQUAL(to[i + 1], to[i]);
-		if (n < count * LOBE_SHARE_PART)
+		if (n < count * LOBE_CL_SPLIT_PART)
 			continue;
-		TEST_ASSERT_GREATER_OR_EQUAL(LOBE_SHARE_PART, to[i + 1] - to[i]);
-		TEST_ASSERT_EQUAL(0, to[i] % LOBE_SHARE_PART);
+		TEST_ASSERT_GREATER_OR_EQUAL(LOBE_CL_SPLIT_PART, to[i + 1] - to[i]);
+		TEST_ASSERT_EQUAL(0, to[i] % LOBE_CL_SPLIT_PART);
 	}
 }
 
 static void test_split_is_whole(void)
 {
 	for (uint32_t i = 0; i < 200000; i++) {
-		lobe_measure m[DEVICES_MAX];
+		lobe_cl_measure m[DEVICES_MAX];
 		const size_t count = 1 + test_bits(1, i) % DEVICES_MAX;
 		const size_t n = 1 + (test_bits(2, i) >> (test_bits(3, i) % 32));
 		for (size_t k = 0; k < count; k++) {
@@ -56,27 +56,27 @@ static void test_split_is_whole(void)
 		}
 		assert_whole(m, count, n);
 	}
-	const lobe_measure extreme[3] = {{1e300, 0}, {1e-300, 0}, {1e300, 0}};
-	assert_whole(extreme, 3, 3 * LOBE_SHARE_PART);
+	const lobe_cl_measure extreme[3] = {{1e300, 0}, {1e-300, 0}, {1e300, 0}};
+	assert_whole(extreme, 3, 3 * LOBE_CL_SPLIT_PART);
 	assert_whole(extreme, 3, 1000003);
 }
 
 static void test_split_in_proportion(void)
 {
-	lobe_measure m[2] = {{0.0, 0}, {0.0, 0}};
+	lobe_cl_measure m[2] = {{0.0, 0}, {0.0, 0}};
 	size_t to[3];
-	lobe_share(m, 2, 1 << 20, to);
+	lobe_cl_split(m, 2, 1 << 20, to);
 	TEST_ASSERT_EQUAL_MESSAGE(1 << 19, to[1], "nothing known: equal parts");
 	m[0].speed = 3e6;
-	lobe_share(m, 2, 1 << 20, to);
+	lobe_cl_split(m, 2, 1 << 20, to);
 	TEST_ASSERT_EQUAL_MESSAGE(1 << 19, to[1], "one not known: equal parts");
 	m[1].speed = 1e6;
-	lobe_share(m, 2, 1 << 20, to);
+	lobe_cl_split(m, 2, 1 << 20, to);
 	TEST_ASSERT_EQUAL_MESSAGE(3 << 18, to[1], "three to one");
-	lobe_share(m, 2, 2 * LOBE_SHARE_PART - 1, to);
-	TEST_ASSERT_EQUAL_MESSAGE(2 * LOBE_SHARE_PART - 1, to[1], "few elements: all to the fastest");
+	lobe_cl_split(m, 2, 2 * LOBE_CL_SPLIT_PART - 1, to);
+	TEST_ASSERT_EQUAL_MESSAGE(2 * LOBE_CL_SPLIT_PART - 1, to[1], "few elements: all to the fastest");
 	m[1].speed = 4e6;
-	lobe_share(m, 2, 2 * LOBE_SHARE_PART - 1, to);
+	lobe_cl_split(m, 2, 2 * LOBE_CL_SPLIT_PART - 1, to);
 	TEST_ASSERT_EQUAL_MESSAGE(0, to[1], "few elements: all to the fastest");
 }
 
@@ -89,15 +89,15 @@ static void test_split_learns(void)
 	static const double speed[][2] = {{1e8, 1e8}, {1e8, 1e10}, {3e9, 1e8}, {1e7, 2e7}};
 	const size_t n = 4000000;
 	for (size_t s = 0; s < sizeof speed / sizeof *speed; s++) {
-		lobe_measure m[2] = {{0.0, 0}, {0.0, 0}};
+		lobe_cl_measure m[2] = {{0.0, 0}, {0.0, 0}};
 		size_t to[3];
 		double a = 0.0, b = 0.0;
 		for (int batch = 0; batch < 16; batch++) {
-			lobe_share(m, 2, n, to);
+			lobe_cl_split(m, 2, n, to);
 			a = simulated(speed[s][0], to[1], batch);
 			b = simulated(speed[s][1], to[2] - to[1], batch);
-			lobe_measure_add(&m[0], to[1], a);
-			lobe_measure_add(&m[1], to[2] - to[1], b);
+			lobe_cl_measure_add(&m[0], to[1], a);
+			lobe_cl_measure_add(&m[1], to[2] - to[1], b);
 		}
 		printf("  %8.3g and %8.3g elements/s: %7zu and %7zu of 4M, %.3f and %.3f ms\n", speed[s][0], speed[s][1],
 		       to[1], to[2] - to[1], 1e3 * a, 1e3 * b);

@@ -295,7 +295,7 @@ static const char data[] = "what was made";
 static int found(const char *k)
 {
 	size_t size = 0;
-	void *const got = lobe_cache_get(k, strlen(k), &size);
+	void *const got = lobe_cl_cache_get(k, strlen(k), &size);
 	const int right = got && size == sizeof data && memcmp(got, data, size) == 0;
 	TEST_ASSERT_TRUE_MESSAGE(right || !got, "something that was not put there");
 	free(got);
@@ -305,7 +305,7 @@ static int found(const char *k)
 static void put_one(char *path)
 {
 	empty_folder();
-	lobe_cache_put(key, strlen(key), data, sizeof data);
+	lobe_cl_cache_put(key, strlen(key), data, sizeof data);
 	TEST_ASSERT_EQUAL(1, files(path));
 	TEST_ASSERT_TRUE(found(key));
 }
@@ -340,7 +340,7 @@ static void test_foreign_key(void)
 	char mine[PATH], path[PATH];
 	put_one(mine);
 	empty_folder();
-	lobe_cache_put(other, strlen(other), data, sizeof data);
+	lobe_cl_cache_put(other, strlen(other), data, sizeof data);
 	TEST_ASSERT_EQUAL(1, files(path));
 	TEST_ASSERT_TRUE(found(other));
 	TEST_ASSERT_FALSE(found(key));
@@ -372,7 +372,7 @@ static void test_strange_files(void)
 	TEST_ASSERT_EQUAL(0, remove(path));
 	TEST_ASSERT_EQUAL(0, mkdir(path, 0700));
 	TEST_ASSERT_FALSE(found(key));
-	lobe_cache_put(key, strlen(key), data, sizeof data); /* cannot replace a folder */
+	lobe_cl_cache_put(key, strlen(key), data, sizeof data); /* cannot replace a folder */
 	TEST_ASSERT_FALSE(found(key));
 	TEST_ASSERT_EQUAL(0, remove(path));
 	TEST_ASSERT_EQUAL(0, remove(aside));
@@ -398,15 +398,15 @@ static void test_bound(void)
 	for (int i = 0; i < 10; i++) {
 		const struct timespec moment = {0, 20000000}; /* file times have the grain of the kernel's clock */
 		name[0] = (char)('0' + i);
-		lobe_cache_put(name, 1, big, SIZE);
+		lobe_cl_cache_put(name, 1, big, SIZE);
 		nanosleep(&moment, NULL);
-		free(lobe_cache_get("1", 1, &size)); /* file 1 stays in use */
+		free(lobe_cl_cache_get("1", 1, &size)); /* file 1 stays in use */
 		nanosleep(&moment, NULL);
 	}
 	free(big);
 	for (int i = 0; i < 10; i++) {
 		name[0] = (char)('0' + i);
-		void *const got = lobe_cache_get(name, 1, &size);
+		void *const got = lobe_cl_cache_get(name, 1, &size);
 		TEST_ASSERT_EQUAL_MESSAGE(i == 1 || i >= 5, got != NULL, name);
 		free(got);
 	}
@@ -424,7 +424,7 @@ static void test_read_only_folder(void)
 	put_one(path);
 	TEST_ASSERT_EQUAL(0, chmod(folder, 0500));
 	TEST_ASSERT_TRUE(found(key));
-	lobe_cache_put(other, strlen(other), data, sizeof data);
+	lobe_cl_cache_put(other, strlen(other), data, sizeof data);
 	TEST_ASSERT_EQUAL(geteuid() == 0, found(other));
 	TEST_ASSERT_EQUAL(0, chmod(folder, 0700));
 	empty_folder();
@@ -441,9 +441,9 @@ static void test_where(void)
 		unsetenv("LOBE_CACHE_DIR");
 		setenv("XDG_CACHE_HOME", "no/absolute/path", 1);
 		setenv(i == 0 ? "LOBE_CACHE_DIR" : (i == 1 ? "XDG_CACHE_HOME" : "HOME"), path, 1);
-		TEST_ASSERT_EQUAL(i == 0, lobe_cache_asked_for());
+		TEST_ASSERT_EQUAL(i == 0, lobe_cl_cache_asked_for());
 		TEST_ASSERT_FALSE(found(key));
-		lobe_cache_put(key, strlen(key), data, sizeof data);
+		lobe_cl_cache_put(key, strlen(key), data, sizeof data);
 		TEST_ASSERT_TRUE(found(key));
 		snprintf(path, sizeof path, "%s/%s", home, below[i]);
 		TEST_ASSERT_EQUAL_MESSAGE(0, stat(path, &s), path);

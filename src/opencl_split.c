@@ -1,7 +1,7 @@
-/* opencl_share.c - how a batch is cut between devices. */
-#include "opencl_share.h"
+/* opencl_split.c - how a batch is cut between devices. */
+#include "opencl_split.h"
 
-void lobe_share(const lobe_measure *m, size_t count, size_t n, size_t *to)
+void lobe_cl_split(const lobe_cl_measure *m, size_t count, size_t n, size_t *to)
 {
 	double total = 0.0, sum = 0.0;
 	size_t fastest = 0;
@@ -13,22 +13,22 @@ void lobe_share(const lobe_measure *m, size_t count, size_t n, size_t *to)
 	}
 	to[0] = 0;
 	for (size_t i = 0; i < count; i++) {
-		if (n < count * LOBE_SHARE_PART) {
+		if (n < count * LOBE_CL_SPLIT_PART) {
 			to[i + 1] = i < fastest ? 0 : n;
 			continue;
 		}
 		sum += known ? m[i].speed / total : 1.0 / (double)count;
 		/* What is left for the devices after this one is a part for each at least. */
-		const size_t least = to[i] + LOBE_SHARE_PART;
-		const size_t last = (n / LOBE_SHARE_PART - (count - 1 - i)) * LOBE_SHARE_PART;
-		size_t end = (size_t)((double)n * sum) / LOBE_SHARE_PART * LOBE_SHARE_PART;
+		const size_t least = to[i] + LOBE_CL_SPLIT_PART;
+		const size_t last = (n / LOBE_CL_SPLIT_PART - (count - 1 - i)) * LOBE_CL_SPLIT_PART;
+		size_t end = (size_t)((double)n * sum) / LOBE_CL_SPLIT_PART * LOBE_CL_SPLIT_PART;
 		end = end < least ? least : end;
 		to[i + 1] = i + 1 == count ? n : (end > last ? last : end);
 	}
 }
 
 /* The mean of what was known and what is new, so that one slow moment does not count for long. */
-void lobe_measure_add(lobe_measure *m, size_t n, double seconds)
+void lobe_cl_measure_add(lobe_cl_measure *m, size_t n, double seconds)
 {
 	const double speed = (double)n / (seconds > 1e-9 ? seconds : 1e-9);
 	if (m->speed > 0.0 && !m->first) {
