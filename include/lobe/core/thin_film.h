@@ -159,10 +159,10 @@ LOBE_FN lobe_film_terms lobe_film_terms_make(lobe_real r12, lobe_real t12, lobe_
 LOBE_FN lobe_airy lobe_film_unpolarised(lobe_film_terms s, lobe_real sum_s, lobe_film_terms p, lobe_real sum_p)
 {
 	const lobe_real waves = lobe_fma(s.mean_t, sum_s, p.mean_t * sum_p);
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), half = LOBE_R(0.5);
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	lobe_airy a;
-	a.reflectance = lobe_clamp(lobe_fma(half, s.mean_r + p.mean_r, -waves), zero, one);
-	a.transmittance = lobe_clamp(lobe_fma(half, s.mean_t + p.mean_t, waves), zero, one);
+	a.reflectance = lobe_clamp(lobe_fma(LOBE_R(0.5), s.mean_r + p.mean_r, -waves), zero, one);
+	a.transmittance = lobe_clamp(lobe_fma(LOBE_R(0.5), s.mean_t + p.mean_t, waves), zero, one);
 	return a;
 }
 

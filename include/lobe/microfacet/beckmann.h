@@ -178,11 +178,11 @@ LOBE_FN lobe_real lobe_beckmann_slope_above(lobe_vec3 v, lobe_real t, lobe_real 
  * S = exp(-l) at the horizon. The start adds to l = -log u what makes it right for u near 1, and nearly so elsewhere. */
 LOBE_FN lobe_real lobe_beckmann_slope_below(lobe_real c, lobe_real u)
 {
-	const lobe_real one = LOBE_R(1.0), half = LOBE_R(0.5);
+	const lobe_real one = LOBE_R(1.0);
 	const lobe_real share = u + LOBE_R(0x1p-25), rest = (one - u) - LOBE_R(0x1p-25);
 	const lobe_real whole = lobe_ierfcx(c);
 	/* -log(share), with the series of log(1 - rest) where share is 1 to rounding */
-	const lobe_real series = rest * lobe_fma(rest, lobe_fma(rest, LOBE_R(0.333333333), half), one);
+	const lobe_real series = rest * lobe_fma(rest, lobe_fma(rest, LOBE_R(0.333333333), LOBE_R(0.5)), one);
 	const lobe_real l0 = rest < LOBE_R(0x1p-8) ? series : -lobe_log(share);
 	const lobe_real g = lobe_sqrt(l0);
 	const lobe_real slope = LOBE_R(2.0) * c * lobe_sqrt(LOBE_SQRT_PI * whole);
@@ -192,14 +192,14 @@ LOBE_FN lobe_real lobe_beckmann_slope_below(lobe_real c, lobe_real u)
 		const lobe_real x = c + f;
 		const lobe_real gauss = lobe_exp(-f * (f + (c + c)));
 		const lobe_real s = gauss * lobe_fma(f, lobe_erfcx(x), lobe_ierfcx(x));
-		const lobe_real n = half * LOBE_SQRT_PI * lobe_fma(-share, whole, s) / (f * f * gauss);
+		const lobe_real n = LOBE_R(0.5) * LOBE_SQRT_PI * lobe_fma(-share, whole, s) / (f * f * gauss);
 		const lobe_real xf = x * f;
 		const lobe_real bn = n * (one - (xf + xf));
 		const lobe_real c2 = lobe_fma(LOBE_R(4.0) * xf, xf - one, LOBE_R(-2.0) * f * f);
-		const lobe_real num = lobe_fma(half, bn, one);
+		const lobe_real num = lobe_fma(LOBE_R(0.5), bn, one);
 		const lobe_real den = lobe_fma(n * n, c2 * LOBE_R(0x1.555556p-3), one + bn);
 		const lobe_real step = n * num / den;
-		f = lobe_abs(step) < half ? lobe_fma(f, step, f) : f;
+		f = lobe_abs(step) < LOBE_R(0.5) ? lobe_fma(f, step, f) : f;
 	}
 	return f;
 }
