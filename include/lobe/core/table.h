@@ -25,10 +25,11 @@ LOBE_FN lobe_table lobe_table_at(lobe_uint64 address)
 
 LOBE_FN lobe_uint64 lobe_table_address(lobe_table t) { return ((lobe_uint64)t.high << 32) | t.low; }
 
-/* Word i of a table that is there. */
+/* Word i of a table; 0 where there is no table (the host refuses a material that lacks one it needs). */
 LOBE_FN lobe_real lobe_table_fetch(lobe_table t, lobe_uint i)
 {
-	return (lobe_real)LOBE_FETCH_FLOAT(lobe_table_address(t), i);
+	const lobe_uint64 address = lobe_table_address(t);
+	return address != 0 ? (lobe_real)LOBE_FETCH_FLOAT(address, i) : LOBE_R(0.0);
 }
 
 #endif
