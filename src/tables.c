@@ -7,8 +7,24 @@
 /* Words of the longest table. */
 #define TABLE_MAX ((size_t)1 << 24)
 
+/* Whether a distribution of normals samples by a table (microfacet/profile.h). */
+static int needs_table(lobe_uint ndf)
+{
+	switch (ndf) {
+#define LOBE_NDF_FIXED(NAME, name, number)
+#define LOBE_NDF_SHAPED(NAME, name, number) case number:
+#include "lobe/microfacet/distributions.def"
+#undef LOBE_NDF_FIXED
+#undef LOBE_NDF_SHAPED
+		return 1;
+	default:
+		return 0;
+	}
+}
+
 typedef struct {
 	int tabled;
+	int (*needs)(const void *params);
 	lobe_table (*get)(const void *params);
 	void (*set)(void *params, lobe_table t);
 } access;
@@ -16,6 +32,10 @@ typedef struct {
 /* clang-format off */
 #define LOBE_X(NAME, name, kind)
 #define LOBE_X_TABLED(NAME, name, kind)                                                                                \
+	static int needs_##name(const void *params)                                                                    \
+	{                                                                                                              \
+		return needs_table(((const lobe_##name *)params)->surface.distribution.ndf);                           \
+	}                                                                                                              \
 	static lobe_table get_##name(const void *params)                                                               \
 	{                                                                                                              \
 		return lobe_##name##_table(*(const lobe_##name *)params);                                              \
@@ -28,8 +48,8 @@ typedef struct {
 #undef LOBE_X
 
 static const access lobes[LOBE_COUNT] = {
-#define LOBE_X(NAME, name, kind) {0, NULL, NULL},
-#define LOBE_X_TABLED(NAME, name, kind) {1, get_##name, set_##name},
+#define LOBE_X(NAME, name, kind) {0, NULL, NULL, NULL},
+#define LOBE_X_TABLED(NAME, name, kind) {1, needs_##name, get_##name, set_##name},
 #include "lobe/lobes/lobes.def"
 #undef LOBE_X
 };
@@ -45,8 +65,14 @@ lobe_status lobe_check_table(const lobe_bsdf *materials, size_t i)
 	if (index == LOBE_INDEX_NONE || !lobes[index].tabled)
 		return LOBE_OK;
 	const lobe_table t = lobes[index].get(&materials[i].as);
-	if (lobe_table_address(t) == 0)
-		return LOBE_OK;
+	if (lobe_table_address(t) == 0) {
+		if (!lobes[index].needs(&materials[i].as))
+			return LOBE_OK;
+		return lobe_fail(LOBE_ERROR_PARAMETER,
+				 "materials[%zu]: the distribution of lobe_%s needs a table and has none; those of "
+				 "profile_table.h come with theirs",
+				 i, lobe_param_name[index]);
+	}
 	const double length = (double)*words_at(t);
 	if (length >= 1.0 && length <= (double)TABLE_MAX && length == (double)(size_t)length)
 		return LOBE_OK;

@@ -150,11 +150,26 @@ static double surface_condition(const lobe_microsurface *s, const double o[3], c
 	return sum;
 }
 
+/* A facet's i.m and o.m are differences where it is steep: what they are off by is some u of 1, to be compared with their
+ * mean over the facets, of which Lambert's cosine is a measure. A cavity besides divides by them, where they are above
+ * 2 z. */
+static double diffuse_condition(const test_case *c, lobe_vec3 wo, lobe_vec3 wi)
+{
+	const lobe_microfacet_diffuse p = c->bsdf.as.microfacet_diffuse;
+	const lobe_seen o = lobe_see(p.surface, wo, 1.0f), i = lobe_see(p.surface, wi, 1.0f);
+	if (!(o.sigma > 0.0f && i.sigma > 0.0f))
+		return 0.0;
+	const double cavity = p.surface.masking == LOBE_MASKING_VCAVITY ? 0.5 / (double)o.z + 0.5 / (double)i.z : 0.0;
+	return 1.0 / (double)o.sigma + 1.0 / (double)i.sigma + cavity;
+}
+
 /* inexact: how far the directions themselves are off, in u (0 where both sides get the same ones). */
 static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_f, double inexact)
 {
 	conditions r = {0.0, 0.0, 0.0, 0.0, 0};
 	double o[3], i[3], h[3], sum_oh = 0.0, sum_ih = 0.0;
+	if (c->kind == LOBE_KIND_MICROFACET_DIFFUSE)
+		r.input = diffuse_condition(c, wo_f, wi_f);
 	if (c->alpha_x <= 0.0)
 		return r;
 	widen(wo_f, o);
@@ -223,7 +238,7 @@ static void compare(tally *t, const test_case *c, lobe_vec3 wo, lobe_vec3 wi, do
 	const conditions k = condition_of(c, wo, wi, 0.0);
 	if (k.undecided)
 		return;
-	const double amplified = k.fresnel + k.index + k.tail;
+	const double amplified = k.fresnel + k.index + k.tail + k.input;
 	const double off = fabs(got - exact) / exact;
 	const double ratio = off / (U * (1.0 + amplified));
 	t->pairs++;

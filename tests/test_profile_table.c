@@ -160,6 +160,29 @@ static void test_factor(void)
 					 lobe_distribution_hidden(d, lobe_vec3_make(1.0f, 0.0f, z)));
 }
 
+/* A scene takes a material with its table, and neither one without nor one with something else in its place. */
+static void test_scene_wants_the_table(void)
+{
+	static const float no_table[4] = {1.5f, 0.0f, 0.0f, 0.0f};
+	lobe_device *device;
+	lobe_scene *scene = NULL;
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, "native:1"));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_distribution_gtr(&d, table, ROOM, 1.5f, 0.3f));
+	lobe_microfacet_diffuse p = lobe_microfacet_diffuse_make(
+		lobe_microsurface_make(d, lobe_linear_stretch(1.0f, 1.0f)), lobe_rgb_make(0.5f, 0.5f, 0.5f));
+	lobe_bsdf b = lobe_bsdf_from_microfacet_diffuse(p);
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_create(&scene, device, &b, 1), lobe_error_message());
+	lobe_scene_destroy(scene);
+	b = lobe_bsdf_from_microfacet_diffuse(lobe_microfacet_diffuse_with_table(p, lobe_table_at(0)));
+	TEST_ASSERT_EQUAL(LOBE_ERROR_PARAMETER, lobe_scene_create(&scene, device, &b, 1));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_error_message(), "needs a table"));
+	b = lobe_bsdf_from_microfacet_diffuse(
+		lobe_microfacet_diffuse_with_table(p, lobe_table_at((uint64_t)(uintptr_t)no_table)));
+	TEST_ASSERT_EQUAL(LOBE_ERROR_PARAMETER, lobe_scene_create(&scene, device, &b, 1));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_error_message(), "not the length of a table"));
+	lobe_device_close(device);
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
@@ -168,5 +191,6 @@ int main(void)
 	RUN_TEST(test_corners);
 	RUN_TEST(test_densities);
 	RUN_TEST(test_factor);
+	RUN_TEST(test_scene_wants_the_table);
 	return UNITY_END();
 }

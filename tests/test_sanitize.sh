@@ -16,7 +16,7 @@ if ! $CC -fsanitize=address,undefined $out/probe.c -o $out/probe 2>/dev/null || 
 fi
 
 sanitized() {
-	make -s -j2 B=$out ISAS=baseline ROW_OPT=-O1 CFLAGS="-O1 -g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all" "$out/tests/$1"
+	make -s -j2 B=$out ISAS=baseline ROW_OPT=-O0 CFLAGS="-O1 -g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all" "$out/tests/$1"
 }
 clean() {
 	ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$out/suppressions:print_suppressions=0 \
@@ -31,7 +31,7 @@ done
 
 # Data races in the thread pool and the devices.
 raceless() {
-	make -s -j2 B=$out/threads ISAS=baseline ROW_OPT=-O1 CFLAGS="-O1 -g -fsanitize=thread" "$out/threads/tests/$1" && "$out/threads/tests/$1" native
+	make -s -j2 B=$out/threads ISAS=baseline ROW_OPT=-O0 CFLAGS="-O1 -g -fsanitize=thread" "$out/threads/tests/$1" && "$out/threads/tests/$1" native
 }
 for program in test_batch test_async; do check "$program has no data race" raceless $program; done
 

@@ -151,7 +151,7 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 	const lobe_facet_density d = lobe_distribution_density(p.surface.distribution, facet);
 	const lobe_real ratio = lobe_strategy_ratio(d, lobe_strategy_density(p.strategy, p.surface, facet, d));
 	const lobe_rgb weight =
-		lobe_rgb_scale(split.transmittance, v.scale * ratio / (rate * o.sigma * split.transmit));
+		lobe_rgb_scale(split.transmittance, v.scale * ratio * (one / o.sigma / rate) / split.transmit);
 	const int ok = (params - params == zero) & (lobe_min(lobe_min(v.o.z, c), lobe_min(-i.z, rate)) > zero);
 	return lobe_sample_select(ok & (split.transmit > zero), lobe_vec3_scale(i, v.side),
 				  lobe_rgb_finite_or_zero(weight), split.transmit,

@@ -98,7 +98,7 @@ LOBE_FN lobe_real lobe_microfacet_diffuse_balanced(lobe_microsurface s, lobe_see
  * is. */
 LOBE_FN lobe_rgb lobe_microfacet_diffuse_eval(lobe_microfacet_diffuse p, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_real half = LOBE_R(0.5), scale = LOBE_R(1.0) / LOBE_R(55.0);
+	const lobe_real middle = LOBE_R(0.5), scale = LOBE_R(1.0) / LOBE_R(55.0);
 	lobe_real sum_o = LOBE_R(0.0), sum_i = LOBE_R(0.0);
 	if (!lobe_microfacet_diffuse_ok(p, wo, wi))
 		return lobe_rgb_make(LOBE_R(0.0), LOBE_R(0.0), LOBE_R(0.0));
@@ -106,7 +106,7 @@ LOBE_FN lobe_rgb lobe_microfacet_diffuse_eval(lobe_microfacet_diffuse p, lobe_ve
 	const lobe_seen i = lobe_see(p.surface, wi, LOBE_R(1.0));
 	for (lobe_uint k = 0u; k < LOBE_DIFFUSE_FACETS; k++) {
 		const lobe_uint across = k * LOBE_DIFFUSE_FACETS_1 % LOBE_DIFFUSE_FACETS;
-		const lobe_vec2 u = lobe_vec2_make(((lobe_real)k + half) * scale, ((lobe_real)across + half) * scale);
+		const lobe_vec2 u = lobe_vec2_make(((lobe_real)k + middle) * scale, ((lobe_real)across + middle) * scale);
 		sum_o += lobe_microfacet_diffuse_balanced(
 			p.surface, o, i, lobe_microfacet_diffuse_visible(p.surface, o.v, wo, wi, u));
 		sum_i += lobe_microfacet_diffuse_balanced(
