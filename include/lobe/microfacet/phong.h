@@ -11,6 +11,7 @@
 #ifndef LOBE_MICROFACET_PHONG_H
 #define LOBE_MICROFACET_PHONG_H
 
+#include "beckmann.h"
 #include "../core/powers.h"
 #include "profile_visible.h"
 #include "shape.h"
@@ -53,12 +54,8 @@ LOBE_FN lobe_vec3 lobe_phong_visible(lobe_distribution d, lobe_vec3 v, lobe_vec2
  * at 100, and the fit's own .0032 beyond. */
 LOBE_FN lobe_real lobe_phong_hidden_walter(lobe_distribution d, lobe_vec3 v)
 {
-	const lobe_real s = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
-	const lobe_real z = lobe_abs(v.z);
-	const lobe_real a = lobe_sqrt(d.norm) * z / s;
-	const lobe_real num = lobe_fma(lobe_fma(LOBE_R(0.396), a, LOBE_R(-1.259)), a, LOBE_R(1.0));
-	const lobe_real den = lobe_fma(LOBE_R(2.181), a, LOBE_R(3.535)) * lobe_sqrt(d.norm);
-	return a < LOBE_R(1.6) ? s * num / den : LOBE_R(0.0);
+	const lobe_real alpha = LOBE_R(1.0) / lobe_sqrt(d.norm);
+	return lobe_beckmann_hidden_rational(lobe_vec3_make(alpha * v.x, alpha * v.y, v.z));
 }
 
 #endif
