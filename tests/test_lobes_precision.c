@@ -169,7 +169,7 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 	conditions r = {0.0, 0.0, 0.0, 0.0, 0};
 	double o[3], i[3], h[3], sum_oh = 0.0, sum_ih = 0.0;
 	if (c->kind == LOBE_KIND_MICROFACET_DIFFUSE)
-		r.input = diffuse_condition(c, wo_f, wi_f);
+		r.tail = diffuse_condition(c, wo_f, wi_f);
 	if (c->alpha_x <= 0.0)
 		return r;
 	widen(wo_f, o);
@@ -238,7 +238,7 @@ static void compare(tally *t, const test_case *c, lobe_vec3 wo, lobe_vec3 wi, do
 	const conditions k = condition_of(c, wo, wi, 0.0);
 	if (k.undecided)
 		return;
-	const double amplified = k.fresnel + k.index + k.tail + k.input;
+	const double amplified = k.fresnel + k.index + k.tail;
 	const double off = fabs(got - exact) / exact;
 	const double ratio = off / (U * (1.0 + amplified));
 	t->pairs++;
