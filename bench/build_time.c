@@ -238,7 +238,7 @@ int bench_build_times(const char *program, const bench_device *devices, int coun
 		fprintf(csv, ",%s_create_ms,%s_launch_ms", start_name[k], start_name[k]);
 	fputs(",again_ms,cache_bytes,kept_bytes,source_bytes,options\n", csv);
 	for (int d = 0; d < count; d++)
-		for (int i = 0; ok && i <= BENCH_LOBES; i++)
+		for (int i = 0; ok && i <= BENCH_OPEN; i++)
 			if (bench_is_opencl(&devices[d]) && (lobe < 0 || lobe == i)) {
 				const size_t all = runs < RUNS_MAX ? runs : RUNS_MAX;
 				ok = row(program, &devices[d], i, bench_now() - start < seconds ? all : 1, csv);

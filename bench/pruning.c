@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "machine.h"
+#include "race.h"
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
@@ -206,6 +207,43 @@ static void put_outputs(FILE *csv, const bench_plan *plan, const bench_results *
 			}
 }
 
+/* --- choices ------------------------------------------------------------------------------------------------------ */
+
+/* A lobe that chooses at run time, in a program compiled for its choices and in one that can do them all. What building
+ * them costs: bench/build_time.c. */
+static int put_choices(FILE *csv, const bench_plan *plan, const bench_device *d)
+{
+	static const int verbs[] = {BENCH_EVAL_PDF, BENCH_SAMPLE};
+	const size_t n = 1u << 16;
+	bench_arrays a;
+	int ok = bench_arrays_create(&a, n);
+	for (size_t v = 0; ok && v < sizeof verbs / sizeof *verbs; v++) {
+		bench_shading shading[2];
+		bench_racer racer[2];
+		int scenes = 0;
+		for (int i = 0; ok && i < 2; i++, scenes += ok) {
+			shading[i].verb = verbs[v];
+			shading[i].batch = bench_batch(&a, verbs[v], n);
+			ok = bench_scene_create(&shading[i].scene, d->device,
+						i ? BENCH_OPEN : (int)BENCH_LOBE_MICROFACET_CONDUCTOR) == LOBE_OK;
+			racer[i] = bench_shading_racer(&shading[i], 1);
+		}
+		if (ok && bench_race(racer, 2, plan->runs)) {
+			char what[96];
+			snprintf(what, sizeof what, "%s, every choice open; %s", bench_verb_name(verbs[v]), d->label);
+			put(csv, what, "microfacet_conductor", racer[1].rate.median, 0.0, "M/s");
+			put(csv, "  compiled for the one that is made", "microfacet_conductor", racer[0].rate.median,
+			    racer[1].rate.median, "M/s");
+		}
+		for (int i = 0; i < scenes; i++)
+			lobe_scene_destroy(shading[i].scene);
+	}
+	if (!ok)
+		fprintf(stderr, "throughput: %s\n", lobe_error_message());
+	bench_arrays_destroy(&a);
+	return ok;
+}
+
 int bench_pruning(const bench_plan *plan, const bench_results *results, const char *library, const char *path)
 {
 	FILE *csv = bench_create_file(path);
@@ -217,5 +255,9 @@ int bench_pruning(const bench_plan *plan, const bench_results *results, const ch
 	put_library(csv, library);
 	put_programs(csv, library);
 	put_outputs(csv, plan, results);
-	return fclose(csv) == 0;
+	int ok = 1;
+	for (int d = 0; ok && d < plan->device_count; d++)
+		if (bench_is_opencl(&plan->devices[d]))
+			ok = put_choices(csv, plan, &plan->devices[d]);
+	return fclose(csv) == 0 && ok;
 }

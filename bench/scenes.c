@@ -113,7 +113,8 @@ static lobe_microsurface microsurface(void)
 #if LOBE_HAS_MICROFACET_CONDUCTOR
 static lobe_bsdf material_microfacet_conductor(void)
 {
-	const lobe_fresnel_model gold = lobe_fresnel_model_conductor(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
+	const lobe_fresnel_model gold =
+		lobe_fresnel_model_conductor(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
 	return lobe_bsdf_from_microfacet_conductor(
 		lobe_microfacet_conductor_make(microsurface(), gold, LOBE_STRATEGY_VISIBLE));
 }
@@ -135,6 +136,16 @@ static lobe_bsdf material_microfacet_diffuse(void)
 }
 #endif
 
+static lobe_bsdf material_choosing_otherwise(void)
+{
+	const lobe_linear map = lobe_linear_make(0.3f, 0.0f, 0.0f, 0.2f, 0.0f, 0.0f);
+	lobe_microsurface s = lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_BECKMANN), map);
+	s = lobe_microsurface_joint(lobe_microsurface_masking(s, LOBE_MASKING_VCAVITY), LOBE_JOINT_SEPARABLE,
+				    LOBE_ACROSS_BETA);
+	return lobe_bsdf_from_microfacet_conductor(lobe_microfacet_conductor_make(
+		s, lobe_fresnel_model_constant(lobe_rgb_make(0.8f, 0.5f, 0.2f)), LOBE_STRATEGY_BOUNDED_CAP));
+}
+
 static const struct {
 	const char *name;
 	lobe_bsdf (*material)(void);
@@ -144,13 +155,21 @@ static const struct {
 #undef LOBE_X
 };
 
-const char *bench_lobe_name(int lobe) { return lobe < BENCH_LOBES ? lobes[lobe].name : "all"; }
+const char *bench_lobe_name(int lobe)
+{
+	return lobe < BENCH_LOBES ? lobes[lobe].name : lobe == BENCH_OPEN ? "open choices" : "all";
+}
 
 lobe_bsdf bench_lobe_material(int lobe) { return lobes[lobe].material(); }
 
 lobe_status bench_scene_create(lobe_scene **out, lobe_device *device, int lobe)
 {
 	lobe_bsdf material[BENCH_LOBES];
+	if (lobe == BENCH_OPEN) {
+		material[0] = bench_lobe_material(BENCH_LOBE_MICROFACET_CONDUCTOR);
+		material[1] = material_choosing_otherwise();
+		return lobe_scene_create(out, device, material, 2);
+	}
 	const int first = lobe < BENCH_LOBES ? lobe : 0;
 	const int count = lobe < BENCH_LOBES ? 1 : BENCH_LOBES;
 	for (int i = 0; i < count; i++)

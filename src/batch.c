@@ -114,32 +114,6 @@ void lobe_device_close(lobe_device *device)
 
 /* --- scenes ------------------------------------------------------------------------------------------------------ */
 
-/* Exact arithmetic; see backend/opencl.h. */
-#define BASE_OPTIONS "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
-
-const char *lobe_opencl_options(const lobe_scene *scene) { return scene ? scene->options : BASE_OPTIONS; }
-
-/* BASE_OPTIONS and a -DLOBE_HAS_<LOBE>=1 for each lobe with a material. NULL: out of memory. */
-static char *make_options(const lobe_scene *scene)
-{
-	static const char *const names[LOBE_COUNT + 1] = {
-#define LOBE_X(NAME, name, kind) #NAME,
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-		NULL};
-	size_t size = sizeof BASE_OPTIONS + sizeof " -DLOBE_HAS_DEFAULT=0";
-	for (int i = 0; i < LOBE_COUNT; i++)
-		size += scene->table[i].count ? sizeof " -DLOBE_HAS_=1" + strlen(names[i]) : 0;
-	char *options = malloc(size);
-	if (!options)
-		return NULL;
-	size_t at = (size_t)snprintf(options, size, "%s -DLOBE_HAS_DEFAULT=0", BASE_OPTIONS);
-	for (int i = 0; i < LOBE_COUNT; i++)
-		if (scene->table[i].count)
-			at += (size_t)snprintf(options + at, size - at, " -DLOBE_HAS_%s=1", names[i]);
-	return options;
-}
-
 static void free_scene(lobe_scene *scene)
 {
 	for (int i = 0; i < LOBE_COUNT; i++)
@@ -175,7 +149,7 @@ static int fill_scene(lobe_scene *scene, const lobe_bsdf *materials)
 		const size_t size = lobe_param_size[index];
 		memcpy((unsigned char *)scene->table[index].params + scene->slot[i] * size, &materials[i].as, size);
 	}
-	return lobe_tables_gather(scene) && (scene->options = make_options(scene)) != NULL;
+	return lobe_tables_gather(scene) && (scene->options = lobe_make_options(scene, materials)) != NULL;
 }
 
 lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count)

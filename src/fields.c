@@ -10,17 +10,23 @@
 typedef struct {
 	const char *name;
 	size_t offset;
-	int is_uint;
+	int type; /* REAL_FIELD, UINT_FIELD, or CHOICE_FIELD + LOBE_CHOICE_*, which is an unsigned integer too */
 	double min, max;
 } field;
 
+enum { REAL_FIELD, UINT_FIELD, CHOICE_FIELD };
+
 #define REAL(lobe, member, min, max)                                                                                   \
 	{                                                                                                              \
-#member, offsetof(lobe_##lobe, member), 0, min, max                                                    \
+#member, offsetof(lobe_##lobe, member), REAL_FIELD, min, max                                           \
 	}
 #define UINT(lobe, member, max)                                                                                        \
 	{                                                                                                              \
-#member, offsetof(lobe_##lobe, member), 1, 0, max                                                      \
+#member, offsetof(lobe_##lobe, member), UINT_FIELD, 0, max                                             \
+	}
+#define CHOICE(NAME, lobe, member, max)                                                                                \
+	{                                                                                                              \
+#member, offsetof(lobe_##lobe, member), CHOICE_FIELD + LOBE_CHOICE_##NAME, 0, max                      \
 	}
 #define RGB(lobe, member, min, max)                                                                                    \
 	REAL(lobe, member.r, min, max), REAL(lobe, member.g, min, max), REAL(lobe, member.b, min, max)
@@ -46,10 +52,9 @@ static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric, stretch), 
 
 static const field fields_beckmann_conductor[] = {STRETCH(beckmann_conductor, stretch), METAL(beckmann_conductor)};
 
-static const field fields_beckmann_dielectric[] = {STRETCH(beckmann_dielectric, stretch), INDEX(beckmann_dielectric, eta),
-						   INDEX(beckmann_dielectric, inv_eta),
-						   TRANSPORT(beckmann_dielectric, transport),
-						   UINT(beckmann_dielectric, delta, 1)};
+static const field fields_beckmann_dielectric[] = {
+	STRETCH(beckmann_dielectric, stretch), INDEX(beckmann_dielectric, eta), INDEX(beckmann_dielectric, inv_eta),
+	TRANSPORT(beckmann_dielectric, transport), UINT(beckmann_dielectric, delta, 1)};
 
 static const field fields_ggx_schlick[] = {STRETCH(ggx_schlick, stretch), RGB(ggx_schlick, f0, 0, 1),
 					   RGB(ggx_schlick, f90, 0, 1)};
@@ -74,40 +79,41 @@ static const field fields_iridescent_dielectric[] = {
 
 /* A table's handle has no domain here: lobe_check_table sees to it. */
 /* microfacet/linear.h */
-#define SLOPES 100.01
+#define SLOPES  100.01
 #define INVERSE 1e6
 #define LINEAR(lobe, map)                                                                                              \
-	REAL(lobe, map.xx, -SLOPES, SLOPES), REAL(lobe, map.xy, -SLOPES, SLOPES),                                      \
-		REAL(lobe, map.yx, -SLOPES, SLOPES), REAL(lobe, map.yy, -SLOPES, SLOPES),                              \
-		REAL(lobe, map.mean_x, -SLOPES, SLOPES), REAL(lobe, map.mean_y, -SLOPES, SLOPES),                      \
-		REAL(lobe, map.ixx, -INVERSE, INVERSE), REAL(lobe, map.ixy, -INVERSE, INVERSE),                        \
-		REAL(lobe, map.iyx, -INVERSE, INVERSE), REAL(lobe, map.iyy, -INVERSE, INVERSE),                        \
-		REAL(lobe, map.norm, 3e-5, 1e10)
+	REAL(lobe, map.xx, -SLOPES, SLOPES), REAL(lobe, map.xy, -SLOPES, SLOPES), REAL(lobe, map.yx, -SLOPES, SLOPES), \
+		REAL(lobe, map.yy, -SLOPES, SLOPES), REAL(lobe, map.mean_x, -SLOPES, SLOPES),                          \
+		REAL(lobe, map.mean_y, -SLOPES, SLOPES), REAL(lobe, map.ixx, -INVERSE, INVERSE),                       \
+		REAL(lobe, map.ixy, -INVERSE, INVERSE), REAL(lobe, map.iyx, -INVERSE, INVERSE),                        \
+		REAL(lobe, map.iyy, -INVERSE, INVERSE), REAL(lobe, map.norm, 3e-5, 1e10)
 #define DISTRIBUTION(lobe, member)                                                                                     \
-	UINT(lobe, member.ndf, LOBE_NDF_TABULATED), REAL(lobe, member.exponent, -(double)FLT_MAX, (double)FLT_MAX),                    \
-		REAL(lobe, member.width, 0, 1000), REAL(lobe, member.norm, 0, (double)FLT_MAX),                                \
-		UINT(lobe, member.table.low, UINT32_MAX), UINT(lobe, member.table.high, UINT32_MAX)
+	CHOICE(NDF, lobe, member.ndf, LOBE_NDF_TABULATED),                                                             \
+		REAL(lobe, member.exponent, -(double)FLT_MAX, (double)FLT_MAX), REAL(lobe, member.width, 0, 1000),     \
+		REAL(lobe, member.norm, 0, (double)FLT_MAX), UINT(lobe, member.table.low, UINT32_MAX),                 \
+		UINT(lobe, member.table.high, UINT32_MAX)
 #define MICROSURFACE(lobe)                                                                                             \
 	DISTRIBUTION(lobe, surface.distribution), LINEAR(lobe, surface.map),                                           \
-		UINT(lobe, surface.masking, LOBE_MASKING_LAST), UINT(lobe, surface.joint, LOBE_JOINT_LAST),            \
-		UINT(lobe, surface.across, LOBE_ACROSS_BETA), REAL(lobe, surface.like, 1e-5, 10),                       \
+		CHOICE(MASKING, lobe, surface.masking, LOBE_MASKING_LAST),                                             \
+		CHOICE(JOINT, lobe, surface.joint, LOBE_JOINT_LAST),                                                   \
+		CHOICE(ACROSS, lobe, surface.across, LOBE_ACROSS_BETA), REAL(lobe, surface.like, 1e-5, 10),            \
 		REAL(lobe, surface.alpha, 1e-10, 1000), REAL(lobe, surface.narrow, 1e-10, 1000)
 /* What they are is told by the model. Of a and b the widest is the index of a conductor, and a dip's depth may be
  * negative; of c and d a film's thickness and index. */
 #define FRESNEL(lobe)                                                                                                  \
-	UINT(lobe, fresnel.model, LOBE_FRESNEL_LAST), RGB(lobe, fresnel.a, 0, 1000), RGB(lobe, fresnel.b, -1, 1000),    \
-		REAL(lobe, fresnel.c, 0, 1e6), REAL(lobe, fresnel.d, 0, 1.0001e6)
+	CHOICE(FRESNEL, lobe, fresnel.model, LOBE_FRESNEL_LAST), RGB(lobe, fresnel.a, 0, 1000),                        \
+		RGB(lobe, fresnel.b, -1, 1000), REAL(lobe, fresnel.c, 0, 1e6), REAL(lobe, fresnel.d, 0, 1.0001e6)
 
 static const field fields_microfacet_conductor[] = {
 	MICROSURFACE(microfacet_conductor), FRESNEL(microfacet_conductor),
-	UINT(microfacet_conductor, strategy, LOBE_STRATEGY_LAST)};
+	CHOICE(STRATEGY, microfacet_conductor, strategy, LOBE_STRATEGY_LAST)};
 
 static const field fields_microfacet_dielectric[] = {
 	MICROSURFACE(microfacet_dielectric),
 	FRESNEL(microfacet_dielectric),
 	REAL(microfacet_dielectric, eta, 0.99999e-3, 1000.01),
 	REAL(microfacet_dielectric, inv_eta, 0.99999e-3, 1000.01),
-	UINT(microfacet_dielectric, strategy, LOBE_STRATEGY_LAST),
+	CHOICE(STRATEGY, microfacet_dielectric, strategy, LOBE_STRATEGY_LAST),
 	UINT(microfacet_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
 	UINT(microfacet_dielectric, delta, 1)};
 
@@ -166,14 +172,14 @@ lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i)
 		const field *f = &lobes[index].fields[k];
 		const unsigned char *at = (const unsigned char *)&materials[i].as + f->offset;
 		double value;
-		if (f->is_uint) {
-			uint32_t u;
-			memcpy(&u, at, sizeof u);
-			value = (double)u;
-		} else {
+		if (f->type == REAL_FIELD) {
 			float x;
 			memcpy(&x, at, sizeof x);
 			value = (double)x;
+		} else {
+			uint32_t u;
+			memcpy(&u, at, sizeof u);
+			value = (double)u;
 		}
 		if (!(value >= f->min && value <= f->max))
 			return lobe_fail(LOBE_ERROR_PARAMETER,
@@ -183,4 +189,20 @@ lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i)
 					 lobe_param_name[index]);
 	}
 	return LOBE_OK;
+}
+
+int lobe_add_choices(const lobe_bsdf *material, uint32_t used[LOBE_CHOICES_COUNT])
+{
+	const int index = lobe_index_of_kind(material->kind);
+	int any = 0;
+	for (size_t k = 0; index >= 0 && index != LOBE_INDEX_NONE && k < lobes[index].count; k++) {
+		const field *f = &lobes[index].fields[k];
+		uint32_t value;
+		if (f->type < CHOICE_FIELD)
+			continue;
+		memcpy(&value, (const unsigned char *)&material->as + f->offset, sizeof value);
+		used[f->type - CHOICE_FIELD] |= UINT32_C(1) << value;
+		any = 1;
+	}
+	return any;
 }

@@ -125,6 +125,21 @@ extern const char *const lobe_in_names[2][LOBE_IN_COUNT], *const lobe_out_names[
 /* Checks every field of materials[i]; LOBE_ERROR_PARAMETER and a message that names i and the field. (fields.c) */
 lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i);
 
+/* What the microfacet_* lobes choose at run time: LOBE_ONLY_<NAME> of config.h. */
+#define LOBE_CHOICES(X) X(NDF) X(MASKING) X(JOINT) X(ACROSS) X(FRESNEL) X(STRATEGY)
+enum {
+#define LOBE_CHOICE_ENUM(NAME) LOBE_CHOICE_##NAME,
+	LOBE_CHOICES(LOBE_CHOICE_ENUM)
+#undef LOBE_CHOICE_ENUM
+	LOBE_CHOICES_COUNT
+};
+
+/* Adds bit n of used[choice] for the value n that a checked material chooses. 0: it has nothing to choose. (fields.c) */
+int lobe_add_choices(const lobe_bsdf *material, uint32_t used[LOBE_CHOICES_COUNT]);
+
+/* The options of a scene whose tables are filled, the caller's to free. NULL: out of memory. (options.c) */
+char *lobe_make_options(const lobe_scene *scene, const lobe_bsdf *materials);
+
 /* lobe_fail(status, format, ...): sets this thread's error message (printf) and is status. A macro, so that a reader and
  * an analyser see that it is not LOBE_OK. (status.c) */
 #define lobe_fail(status, ...) (lobe_set_error_message(__VA_ARGS__), (status))
@@ -176,6 +191,6 @@ lobe_status lobe_fallback_open(lobe_device **out, lobe_device *first, lobe_devic
 /* out becomes a scene of its own on that device, in which the lists and parameters are from's. (batch.c) */
 lobe_status lobe_scene_share(lobe_scene *out, const lobe_scene *from, lobe_device *device);
 /* lobe_device_open_cl and lobe_device_cl are implemented in opencl.c, lobe_opencl_source in opencl_source.c and
- * lobe_opencl_options in batch.c. */
+ * lobe_opencl_options in options.c. */
 
 #endif

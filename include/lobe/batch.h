@@ -178,8 +178,9 @@ struct _cl_mem;
  * built with LOBE_OPENCL=0. */
 LOBE_API const char *lobe_opencl_source(void);
 
-/* Build options for a program that holds lobe_opencl_source() and serves this scene: exact arithmetic, and the scene's
- * kinds of lobe only. scene NULL: every lobe. Valid until the scene is destroyed. */
+/* Build options for a program that holds lobe_opencl_source() and serves this scene: exact arithmetic, the scene's
+ * kinds of lobe only, and of what microfacet_* lobes choose at run time what its materials do choose, where that is one
+ * thing (config.h). scene NULL: every lobe and choice. Valid until the scene is destroyed. */
 LOBE_API const char *lobe_opencl_options(const lobe_scene *scene);
 
 /* A device on the caller's own context, device and in-order queue, each retained until the device is closed. */

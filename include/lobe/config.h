@@ -4,6 +4,8 @@
  * LOBE_HAS_DEFAULT  what a lobe's switch is when nobody sets it
  * LOBE_HAS_<LOBE>   0 leaves the lobe out: its header, its place in lobe_bsdf, its kernels
  *
+ * LOBE_ONLY_<CHOICE> where something is chosen at run time, the number of the one value that ever is: all others are left out
+ *
  * A scene of two lobes compiles with -DLOBE_HAS_DEFAULT=0 and one -DLOBE_HAS_<LOBE>=1 for each. */
 #ifndef LOBE_CONFIG_H
 #define LOBE_CONFIG_H
@@ -71,6 +73,32 @@
 #ifndef LOBE_HAS_NDF_BECKMANN
 #define LOBE_HAS_NDF_BECKMANN (LOBE_HAS_BECKMANN_CONDUCTOR || LOBE_HAS_BECKMANN_DIELECTRIC)
 #endif
+
+/* What the microfacet_* lobes choose. LOBE_ANY: it is not known. */
+#define LOBE_ANY                   0xffffffffu
+#define LOBE_CHOSEN(choice, only) ((only) == LOBE_ANY ? (choice) : (only))
+#ifndef LOBE_ONLY_NDF
+#define LOBE_ONLY_NDF LOBE_ANY
+#endif
+#ifndef LOBE_ONLY_MASKING
+#define LOBE_ONLY_MASKING LOBE_ANY
+#endif
+#ifndef LOBE_ONLY_JOINT
+#define LOBE_ONLY_JOINT LOBE_ANY
+#endif
+#ifndef LOBE_ONLY_ACROSS
+#define LOBE_ONLY_ACROSS LOBE_ANY
+#endif
+#ifndef LOBE_ONLY_FRESNEL
+#define LOBE_ONLY_FRESNEL LOBE_ANY
+#endif
+#ifndef LOBE_ONLY_STRATEGY
+#define LOBE_ONLY_STRATEGY LOBE_ANY
+#endif
+/* Then nothing is chosen at run time. */
+#define LOBE_ONLY_ONE                                                                                                  \
+	(LOBE_ONLY_NDF != LOBE_ANY && LOBE_ONLY_MASKING != LOBE_ANY && LOBE_ONLY_JOINT != LOBE_ANY &&                  \
+	 LOBE_ONLY_ACROSS != LOBE_ANY && LOBE_ONLY_FRESNEL != LOBE_ANY && LOBE_ONLY_STRATEGY != LOBE_ANY)
 
 /* The linked library has every lobe; its lobe_bsdf is a union over them all. */
 #define LOBE_HAS_ALL                                                                                                   \

@@ -29,8 +29,11 @@ typedef long lobe_int64;
 #endif
 #endif
 
-/* Large functions that choose at run time: calls, so that a program with them builds in seconds. */
-#ifdef __clang__
+/* Large functions that choose at run time: calls, so that a program with them builds in seconds. Where all is chosen
+ * before, they are as small as any. */
+#if LOBE_ONLY_ONE
+#define LOBE_FN_APART LOBE_FN
+#elif defined(__clang__)
 #define LOBE_FN_APART static __attribute__((noinline))
 #else
 #define LOBE_FN_APART static

@@ -107,7 +107,7 @@ LOBE_FN lobe_rgb lobe_rgb_all(lobe_real x) { return lobe_rgb_make(x, x, x); }
 /* Reflectance of an opaque surface; c: cosine to the facet. */
 LOBE_FN_APART lobe_rgb lobe_fresnel_model_opaque(lobe_fresnel_model f, lobe_real c)
 {
-	switch (f.model) {
+	switch (LOBE_CHOSEN(f.model, LOBE_ONLY_FRESNEL)) {
 	case LOBE_FRESNEL_EXACT:
 		return lobe_fresnel_conductor_rgb(c, f.a, f.b);
 	case LOBE_FRESNEL_SCHLICK:
@@ -136,7 +136,7 @@ LOBE_FN lobe_rgb lobe_fresnel_model_rest(lobe_fresnel_model f, lobe_real c, lobe
 		lobe_rgb_make(lobe_fma(f.b.r - f.a.r, rise, one - f.b.r), lobe_fma(f.b.g - f.a.g, rise, one - f.b.g),
 			      lobe_fma(f.b.b - f.a.b, rise, one - f.b.b));
 	const lobe_rgb other = lobe_rgb_make(one - reflectance.r, one - reflectance.g, one - reflectance.b);
-	return f.model == LOBE_FRESNEL_SCHLICK ? schlick : other;
+	return LOBE_CHOSEN(f.model, LOBE_ONLY_FRESNEL) == LOBE_FRESNEL_SCHLICK ? schlick : other;
 }
 
 /* What an interface does with light. reflect, transmit: probabilities by which a sample chooses, the means of the two
@@ -158,14 +158,15 @@ LOBE_FN lobe_real lobe_fresnel_mean(lobe_rgb f)
 LOBE_FN_APART lobe_fresnel_split lobe_fresnel_model_interface(lobe_fresnel_model f, lobe_real c, lobe_real e)
 {
 	const lobe_real one = LOBE_R(1.0), zero = LOBE_R(0.0);
+	const lobe_uint model = LOBE_CHOSEN(f.model, LOBE_ONLY_FRESNEL);
 	lobe_fresnel_split s;
 	s.exact = lobe_fresnel_dielectric(c, e);
 	const int total = s.exact.transmittance == zero;
 	const lobe_real thin = e < one ? s.exact.cos_t : c;
-	if (f.model == LOBE_FRESNEL_EXACT) {
+	if (model == LOBE_FRESNEL_EXACT) {
 		s.reflectance = lobe_rgb_all(s.exact.reflectance);
 		s.transmittance = lobe_rgb_all(s.exact.transmittance);
-	} else if (f.model == LOBE_FRESNEL_FILM) {
+	} else if (model == LOBE_FRESNEL_FILM) {
 		const lobe_film_fresnel film =
 			lobe_thin_film_dielectric_rgb(thin, lobe_film_make(f.c, f.d), e < one ? one / e : e);
 		s.reflectance = total ? lobe_rgb_all(one) : film.reflectance;

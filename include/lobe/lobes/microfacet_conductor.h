@@ -52,7 +52,8 @@ LOBE_FN lobe_microfacet_conductor lobe_microfacet_conductor_with_table(lobe_micr
 /* f |cos theta_i| [1/sr] */
 LOBE_FN_APART lobe_rgb lobe_microfacet_conductor_eval(lobe_microfacet_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_scatter r = lobe_scatter_at(p.surface, p.strategy, wo, wi, LOBE_R(1.0), 0);
+	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
+	const lobe_scatter r = lobe_scatter_at(p.surface, strategy, wo, wi, LOBE_R(1.0), 0);
 	const lobe_rgb f = lobe_fresnel_model_opaque(p.fresnel, r.cosine);
 	const int ok = lobe_microfacet_conductor_ok(p, wo, wi, r.facing);
 	return lobe_rgb_select(ok, lobe_rgb_finite_or_zero(lobe_rgb_scale(f, r.density * r.g2_over_cos)));
@@ -61,7 +62,8 @@ LOBE_FN_APART lobe_rgb lobe_microfacet_conductor_eval(lobe_microfacet_conductor 
 /* [1/sr] */
 LOBE_FN_APART lobe_real lobe_microfacet_conductor_pdf(lobe_microfacet_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_scatter r = lobe_scatter_at(p.surface, p.strategy, wo, wi, LOBE_R(1.0), 0);
+	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
+	const lobe_scatter r = lobe_scatter_at(p.surface, strategy, wo, wi, LOBE_R(1.0), 0);
 	const int ok = lobe_microfacet_conductor_ok(p, wo, wi, r.facing);
 	return ok ? lobe_finite_or_zero(r.sampled) : LOBE_R(0.0);
 }
@@ -70,17 +72,18 @@ LOBE_FN_APART lobe_real lobe_microfacet_conductor_pdf(lobe_microfacet_conductor 
  */
 LOBE_FN_APART lobe_sample lobe_microfacet_conductor_sample(lobe_microfacet_conductor p, lobe_vec3 wo, lobe_vec3 u)
 {
+	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	lobe_vec3 wi;
-	if (lobe_strategy_of_directions(p.strategy)) {
-		wi = lobe_strategy_direction(p.strategy, 0, u);
+	if (lobe_strategy_of_directions(strategy)) {
+		wi = lobe_strategy_direction(strategy, 0, u);
 	} else {
 		const lobe_seen o = lobe_see(p.surface, wo, one);
-		const lobe_strategy_facet f = lobe_strategy_sample(p.strategy, p.surface, o, wo, 0, u);
+		const lobe_strategy_facet f = lobe_strategy_sample(strategy, p.surface, o, wo, 0, u);
 		const lobe_vec3 m = lobe_linear_normal(p.surface.map, f.m);
 		wi = lobe_reflect(wo, m, lobe_dot(wo, m) / lobe_dot(m, m));
 	}
-	const lobe_scatter r = lobe_scatter_at(p.surface, p.strategy, wo, wi, one, 0);
+	const lobe_scatter r = lobe_scatter_at(p.surface, strategy, wo, wi, one, 0);
 	const lobe_rgb f = lobe_fresnel_model_opaque(p.fresnel, r.cosine);
 	const int ok = lobe_microfacet_conductor_ok(p, wo, wi, r.facing);
 	const lobe_real pdf = ok ? lobe_finite_or_zero(r.sampled) : zero;

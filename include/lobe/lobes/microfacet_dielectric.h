@@ -80,16 +80,17 @@ LOBE_FN_APART lobe_microfacet_dielectric_result lobe_microfacet_dielectric_at(lo
 									      lobe_microfacet_dielectric_view v,
 									      lobe_vec3 i)
 {
+	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_real params =
 		lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
-	const lobe_scatter r = lobe_scatter_at(p.surface, p.strategy, v.o, i, v.e, 1);
+	const lobe_scatter r = lobe_scatter_at(p.surface, strategy, v.o, i, v.e, 1);
 	const lobe_fresnel_split split = lobe_fresnel_model_interface(p.fresnel, r.cosine, v.e);
 	const int reflects = i.z > zero;
 	const int there = (params - params == zero) & (r.facing > zero) & (reflects | (p.delta == 0u));
 	const lobe_rgb share = reflects ? split.reflectance : split.transmittance;
 	const lobe_real scale = reflects ? one : v.scale;
-	const lobe_real chosen = lobe_strategy_of_directions(p.strategy) ? one
+	const lobe_real chosen = lobe_strategy_of_directions(strategy) ? one
 				 : reflects                              ? split.reflect
 									 : split.transmit;
 	const lobe_real inv_chosen = chosen > zero ? one / chosen : zero;
@@ -137,6 +138,7 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 							      lobe_vec3 facet, lobe_vec3 m, lobe_real c,
 							      lobe_fresnel_split split)
 {
+	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_real params =
 		lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
@@ -147,9 +149,9 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 	seen.i = seen.o;
 	seen.z = facet.z;
 	seen.length2 = lobe_dot(facet, facet);
-	const lobe_real rate = lobe_strategy_rate(p.strategy, p.surface, o, v.o, 1, seen);
+	const lobe_real rate = lobe_strategy_rate(strategy, p.surface, o, v.o, 1, seen);
 	const lobe_facet_density d = lobe_distribution_density(p.surface.distribution, facet);
-	const lobe_real ratio = lobe_strategy_ratio(d, lobe_strategy_density(p.strategy, p.surface, facet, d));
+	const lobe_real ratio = lobe_strategy_ratio(d, lobe_strategy_density(strategy, p.surface, facet, d));
 	const lobe_rgb weight =
 		lobe_rgb_scale(split.transmittance, v.scale * ratio * (one / o.sigma / rate) / split.transmit);
 	const int ok = (params - params == zero) & (lobe_min(lobe_min(v.o.z, c), lobe_min(-i.z, rate)) > zero);
@@ -163,14 +165,15 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
  * LOBE_EVENT_DELTA pdf is the share of samples that the facet transmits. */
 LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_sample(lobe_microfacet_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
+	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_microfacet_dielectric_view v = lobe_microfacet_dielectric_view_make(p, wo);
 	lobe_vec3 i;
-	if (lobe_strategy_of_directions(p.strategy)) {
-		i = lobe_strategy_direction(p.strategy, 1, u);
+	if (lobe_strategy_of_directions(strategy)) {
+		i = lobe_strategy_direction(strategy, 1, u);
 	} else {
 		const lobe_seen o = lobe_see(p.surface, v.o, one);
-		const lobe_strategy_facet f = lobe_strategy_sample(p.strategy, p.surface, o, v.o, 1, u);
+		const lobe_strategy_facet f = lobe_strategy_sample(strategy, p.surface, o, v.o, 1, u);
 		const lobe_vec3 m = lobe_normalize(lobe_linear_normal(p.surface.map, f.m));
 		const lobe_real c = lobe_min(lobe_dot(v.o, m), one);
 		const lobe_fresnel_split split = lobe_fresnel_model_interface(p.fresnel, c, v.e);

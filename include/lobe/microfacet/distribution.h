@@ -33,7 +33,7 @@ LOBE_FN lobe_distribution lobe_distribution_make(lobe_uint ndf)
 /* pi |h|^-4 D(h/|h|), as inv^2 factor. */
 LOBE_FN_APART lobe_facet_density lobe_distribution_density(lobe_distribution d, lobe_vec3 h)
 {
-	switch (d.ndf) {
+	switch (LOBE_CHOSEN(d.ndf, LOBE_ONLY_NDF)) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
 	case number:                                                                                                   \
 		return lobe_##name##_density(h);
@@ -51,7 +51,7 @@ LOBE_FN_APART lobe_facet_density lobe_distribution_density(lobe_distribution d, 
 /* |v.z| Lambda(v) */
 LOBE_FN_APART lobe_real lobe_distribution_hidden(lobe_distribution d, lobe_vec3 v)
 {
-	switch (d.ndf) {
+	switch (LOBE_CHOSEN(d.ndf, LOBE_ONLY_NDF)) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
 	case number:                                                                                                   \
 		return lobe_##name##_hidden(v);
@@ -69,7 +69,7 @@ LOBE_FN_APART lobe_real lobe_distribution_hidden(lobe_distribution d, lobe_vec3 
 /* The fraction of the mean plane under facets steeper than tan^2 = t2. */
 LOBE_FN_APART lobe_real lobe_distribution_tail(lobe_distribution d, lobe_real t2)
 {
-	switch (d.ndf) {
+	switch (LOBE_CHOSEN(d.ndf, LOBE_ONLY_NDF)) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
 	case number:                                                                                                   \
 		return lobe_##name##_tail(t2);
@@ -87,7 +87,7 @@ LOBE_FN_APART lobe_real lobe_distribution_tail(lobe_distribution d, lobe_real t2
 /* The t2 of tail q, in (0, 1]. */
 LOBE_FN_APART lobe_real lobe_distribution_tail_inverse(lobe_distribution d, lobe_real q)
 {
-	switch (d.ndf) {
+	switch (LOBE_CHOSEN(d.ndf, LOBE_ONLY_NDF)) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
 	case number:                                                                                                   \
 		return lobe_##name##_tail_inverse(q);
@@ -105,7 +105,7 @@ LOBE_FN_APART lobe_real lobe_distribution_tail_inverse(lobe_distribution d, lobe
 /* A normal visible from v, on either side of the horizon: density D(m) max(0, v.m)/sigma(v). Of any length. */
 LOBE_FN_APART lobe_vec3 lobe_distribution_visible(lobe_distribution d, lobe_vec3 v, lobe_vec2 u)
 {
-	switch (d.ndf) {
+	switch (LOBE_CHOSEN(d.ndf, LOBE_ONLY_NDF)) {
 #define LOBE_NDF_FIXED(NAME, name, number)                                                                             \
 	case number:                                                                                                   \
 		return lobe_##name##_visible(v, u);

@@ -61,7 +61,7 @@ LOBE_FN lobe_real lobe_masking_smith(lobe_uint joint, lobe_seen o, lobe_seen i)
 	const lobe_real ho = o.hides * i.z, hi = i.hides * o.z;
 	const lobe_real product = i.z / (sum_o * sum_i);
 	const lobe_real height = i.z / lobe_fma(sum_o, i.z, hi);
-	switch (joint) {
+	switch (LOBE_CHOSEN(joint, LOBE_ONLY_JOINT)) {
 	case LOBE_JOINT_SEPARABLE:
 		return product;
 	case LOBE_JOINT_HEIGHT:
@@ -93,7 +93,7 @@ LOBE_FN lobe_real lobe_masking_smith_across(lobe_uint across, lobe_seen o, lobe_
 	const lobe_real sum_o = o.z + o.hides;
 	const lobe_real a = lobe_masking_one_plus_lambda(o), b = lobe_masking_one_plus_lambda(i);
 	const lobe_real exact = o.z > LOBE_R(0.0) ? lobe_beta(a, b) * a / sum_o : LOBE_R(0.0);
-	return across == LOBE_ACROSS_BETA ? exact : i.z / (sum_o * (i.z + i.hides));
+	return LOBE_CHOSEN(across, LOBE_ONLY_ACROSS) == LOBE_ACROSS_BETA ? exact : i.z / (sum_o * (i.z + i.hides));
 }
 
 LOBE_FN lobe_real lobe_masking_vcavity(lobe_seen o, lobe_seen i, lobe_seen_facet m, int across)
@@ -122,7 +122,7 @@ LOBE_FN lobe_real lobe_masking_ggx(lobe_seen d, lobe_real a)
 LOBE_FN lobe_real lobe_masking_width(lobe_microsurface s)
 {
 	const lobe_real r = LOBE_R(0.5) + LOBE_R(0.5) * lobe_sqrt(s.alpha);
-	switch (s.masking) {
+	switch (LOBE_CHOSEN(s.masking, LOBE_ONLY_MASKING)) {
 	case LOBE_MASKING_SCHLICK_SMITH:
 		return s.alpha * LOBE_R(0.797884560802865355880); /* sqrt(2/pi) */
 	case LOBE_MASKING_SCHLICK_GGX:
@@ -139,14 +139,15 @@ LOBE_FN_APART lobe_real lobe_masking_g2_over_cos(lobe_microsurface s, lobe_seen 
 						 int across)
 {
 	const lobe_real zero = LOBE_R(0.0);
+	const lobe_uint masking = LOBE_CHOSEN(s.masking, LOBE_ONLY_MASKING);
 	if (!(i.z > zero))
 		return zero;
-	if (s.masking == LOBE_MASKING_SMITH || s.masking == LOBE_MASKING_SMITH_RATIONAL)
+	if (masking == LOBE_MASKING_SMITH || masking == LOBE_MASKING_SMITH_RATIONAL)
 		return across ? lobe_masking_smith_across(s.across, o, i) : lobe_masking_smith(s.joint, o, i);
 	if (!(o.z > zero))
 		return zero;
 	const lobe_real k = lobe_masking_width(s);
-	switch (s.masking) {
+	switch (masking) {
 	case LOBE_MASKING_VCAVITY:
 		return lobe_masking_vcavity(o, i, m, across);
 	case LOBE_MASKING_NONE:

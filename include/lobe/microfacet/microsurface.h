@@ -108,7 +108,7 @@ LOBE_FN lobe_real lobe_microsurface_params(lobe_microsurface s)
 /* |v.z| Lambda(v) by which the surface masks: the distribution's own, but for LOBE_MASKING_SMITH_RATIONAL. */
 LOBE_FN lobe_real lobe_microsurface_hides(lobe_microsurface s, lobe_vec3 v, lobe_real hidden)
 {
-	return s.masking == LOBE_MASKING_SMITH_RATIONAL ? lobe_beckmann_hidden_rational(v) : hidden;
+	return LOBE_CHOSEN(s.masking, LOBE_ONLY_MASKING) == LOBE_MASKING_SMITH_RATIONAL ? lobe_beckmann_hidden_rational(v) : hidden;
 }
 
 /* What masking and sampling ask of a direction. v: as it sees the surface of width 1. z: the mean plane's area as seen

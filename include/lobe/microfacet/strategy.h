@@ -54,7 +54,7 @@ LOBE_FN int lobe_strategy_borrows_ggx(lobe_uint strategy, lobe_microsurface s)
 {
 	const int of_ggx = ((strategy >= LOBE_STRATEGY_VISIBLE_SLOPES) & (strategy <= LOBE_STRATEGY_BOUNDED_CAP)) |
 			   (strategy == LOBE_STRATEGY_HEMISPHERE);
-	return of_ggx & (s.distribution.ndf != LOBE_NDF_GGX);
+	return of_ggx & (LOBE_CHOSEN(s.distribution.ndf, LOBE_ONLY_NDF) != LOBE_NDF_GGX);
 }
 
 /* A direction and a normal of the surface of width 1, as the GGX surface of width s.like has them. */
