@@ -294,6 +294,10 @@ report:
 	+@$(MAKE) --no-print-directory $(JOBS) $(B)/bench/report
 	@$(B)/bench/report $(if $(QUICK),--quick) $(OPTIONS)
 
+# The report's part of README.md.
+readme:
+	@bench/report/readme.sh
+
 # Mitsuba 3 beside lobe, in turn; skipped, with a word why, where it cannot be installed. OPTIONS: of bench/peers/mitsuba.py.
 bench-peers: $(B)/bench/throughput
 	@bench/peers/mitsuba.sh $(OPTIONS)
@@ -339,6 +343,7 @@ help:
 		'make bench-peers  Mitsuba 3 beside lobe (installs it in build/peers); out/bench/peers.csv' \
 		'make figures    D, G1, masking, albedo, visible normals: out/figures/*.png' \
 		'make report     error against run time, stability, furnaces: out/report/report.md; QUICK=1 in minutes' \
+		'make readme     puts the last report into README.md and doc/' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \
@@ -346,7 +351,7 @@ help:
 		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: FORCE all run test test-long vectors bench bench-peers figures report check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench bench-peers figures report readme check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)

@@ -57,15 +57,24 @@ double bench_memory(void)
 	return (double)sysconf(_SC_PAGESIZE) * 65536.0;
 }
 
+void bench_processor_name(char *text, size_t size)
+{
+	char line[256];
+	struct utsname system;
+	if (find_line("/proc/cpuinfo", "model name", line, sizeof line))
+		snprintf(text, size, "%s", line + strspn(line, " "));
+	else
+		snprintf(text, size, "%s", uname(&system) >= 0 ? system.machine : "unknown");
+}
+
 void bench_print_machine(FILE *to)
 {
 	char text[1024];
 	struct utsname system;
 	const time_t now = time(NULL);
 	const int known = uname(&system) >= 0;
-	if (!find_line("/proc/cpuinfo", "model name", text, sizeof text))
-		snprintf(text, sizeof text, " %s", known ? system.machine : "unknown");
-	fprintf(to, "processor %s, %zu online\n", text, bench_processors());
+	bench_processor_name(text, sizeof text);
+	fprintf(to, "processor  %s, %zu online\n", text, bench_processors());
 	if (known)
 		fprintf(to, "system     %s %s %s\n", system.sysname, system.release, system.machine);
 	fprintf(to, "compiler   %s\n", COMPILER);

@@ -10,6 +10,9 @@
 /* Processor, compiler, date, commit, and how busy the machine already is. */
 void bench_print_machine(FILE *to);
 
+/* The processor's name, or its architecture. */
+void bench_processor_name(char *text, size_t size);
+
 /* Bytes of memory that nobody uses. */
 double bench_memory(void);
 

@@ -57,9 +57,10 @@ int main(int argc, char **argv)
 		report_page_section(&page, section);
 		section->write(&page, tables, quick);
 	}
-	report_page_write(&page, quick);
+	report_page_write(&page, quick, only == NULL);
 	report_rows_free(&page.findings);
 	report_rows_free(&page.text);
+	report_rows_free(&page.readme);
 	printf("out/report/report.md, %.0f s\n", bench_now() - start);
 	return 0;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../machine.h"
+#include "../scenes.h"
 #include "lobe/lobe.h"
 #include "page.h"
 #include "units.h"
@@ -45,6 +46,14 @@ void report_figure(report_page *page, const char *file, const char *format, ...)
 	report_rows_print(&page->text, format, arguments);
 	va_end(arguments);
 	add(&page->text, " <sub>(`%s --only %s`)</sub>\n\n", page->command, page->section);
+}
+
+void report_readme(report_page *page, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	report_rows_print(&page->readme, format, arguments);
+	va_end(arguments);
 }
 
 void *report_open(const char *file)
@@ -107,22 +116,41 @@ static void print_devices(FILE *to)
 		fprintf(to, "opencl     no device\n");
 }
 
-void report_page_write(report_page *page, int quick)
+static void close_file(FILE *file, const char *name)
+{
+	if (fclose(file) == 0)
+		return;
+	fprintf(stderr, "report: " REPORT_FOLDER "/%s: %s\n", name, strerror(errno));
+	exit(1);
+}
+
+/* What make readme puts into README.md. */
+static void write_readme(const report_page *page)
+{
+	char commit[64], processor[256];
+	FILE *to = report_open("readme.md");
+	bench_processor_name(processor, sizeof processor);
+	if (!bench_command("git describe --always --dirty --abbrev=12 2>/dev/null", commit, sizeof commit))
+		snprintf(commit, sizeof commit, "unknown");
+	fprintf(to, "Measured by `make report` on %s, %zu processors, at commit %s.\n\n%s", processor,
+		bench_processors(), commit, page->readme.text ? page->readme.text : "");
+	close_file(to, "readme.md");
+}
+
+void report_page_write(const report_page *page, int quick, int whole)
 {
 	FILE *to = report_open("report.md");
 	fprintf(to, "# lobe: error against run time, and stability at the extremes\n\n");
 	if (quick)
 		fprintf(to, "**The quick form**: fewer samples and cases, the same questions; `make report` without "
-			    "`QUICK=1` "
-			    "asks them whole.\n\n");
+			    "`QUICK=1` asks them whole.\n\n");
 	fprintf(to, "```\n");
 	bench_print_machine(to);
 	print_devices(to);
 	fprintf(to, "```\n\n## Findings\n\nEach figure is computed from the rows of its section.\n\n%s",
 		page->findings.text ? page->findings.text : "");
 	fprintf(to, "%s", page->text.text ? page->text.text : "");
-	if (fclose(to) != 0) {
-		fprintf(stderr, "report: " REPORT_FOLDER "/report.md: %s\n", strerror(errno));
-		exit(1);
-	}
+	close_file(to, "report.md");
+	if (whole && !quick)
+		write_readme(page);
 }

@@ -5,16 +5,16 @@
 #include "csv.h"
 
 struct report_page {
-	const char *section;        /* the one being written */
-	const char *command;        /* "build/bench/report" and its options */
-	report_rows findings, text; /* of all sections until now */
-	int gnuplot_missing;        /* it was said */
+	const char *section;                /* the one being written */
+	const char *command;                /* "build/bench/report" and its options */
+	report_rows findings, text, readme; /* of all sections until now */
+	int gnuplot_missing;                /* it was said */
 };
 
 /* Heading of a section, and what makes its figures. */
 void report_page_section(report_page *page, const report_section *section);
 
-/* out/report/report.md: head, findings, sections. */
-void report_page_write(report_page *page, int quick);
+/* out/report/report.md: head, findings, sections; and README's part, where all sections were asked whole. */
+void report_page_write(const report_page *page, int quick, int whole);
 
 #endif

@@ -59,6 +59,9 @@ void report_text(report_page *page, const char *format, ...) REPORT_PRINTF(2, 3)
 /* out/report/<file> with a caption, and the command that makes it. */
 void report_figure(report_page *page, const char *file, const char *format, ...) REPORT_PRINTF(3, 4);
 
+/* Markdown for README.md, where `make readme` puts it. A picture of out/report is doc/<file> there. */
+void report_readme(report_page *page, const char *format, ...) REPORT_PRINTF(2, 3);
+
 /* Runs gnuplot on bench/report/<script> in the folder out/report, where the studies' CSVs and what the section wrote
  * with report_open lie. definitions: NULL, or gnuplot assignments "a=1; b='x'". Ends the program when gnuplot fails;
  * where there is none, says so once and goes on: the figures are then missing. */
