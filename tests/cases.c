@@ -184,8 +184,8 @@ static const recipe microfacet_conductor_recipes[] = {
 	 {0.5, 0.3, GREY(0.5, 0), GGX_TILTED, MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE_ELLIPSOID, CONSTANT)}},
 	{"schlick bounded .5:.2",
 	 {0.5, 0.2, GREY(0.3, 1), GGX, MASKING(SMITH, HEIGHT_DIRECTION, SEPARABLE), BY(BOUNDED_CAP, SCHLICK)}},
-	{"silver cavities .6",
-	 {0.6, 0.6, METAL(SILVER), 0, 0, 0, 0, 0, GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE), BY(VCAVITY, EXACT)}},
+	{"film on silver, cavities .6",
+	 {0.6, 0.6, METAL(SILVER), 0, 0, 0, 0, 0, GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE), BY(VCAVITY, FILM), 300, 1.5}},
 	{"phong 30 hemisphere",
 	 {1, 0.6, METAL(NICKEL), 0, 0, 0, 0, 0, SURFACE(LOBE_NDF_PHONG, 30, 1, 0, 0, 0, 0),
 	  MASKING(SMITH, HEIGHT, SEPARABLE), BY(HEMISPHERE, EXACT)}},
@@ -195,8 +195,8 @@ static const recipe microfacet_conductor_recipes[] = {
 	{"beckmann rational .4:.2",
 	 {0.4, 0.2, GREY(0.8, 0), SURFACE(LOBE_NDF_BECKMANN, 0, 1, 0, 0, 0, 0), MASKING(SMITH_RATIONAL, HEIGHT, SEPARABLE),
 	  BY(VISIBLE, CONSTANT)}},
-	{"iron neumann cosine .5",
-	 {0.5, 0.5, METAL(IRON), 0, 0, 0, 0, 0, GGX, MASKING(NEUMANN, HEIGHT, SEPARABLE), BY(COSINE, EXACT)}},
+	{"power 3.2 neumann cosine .5",
+	 {0.5, 0.5, 0.6, 0.3, 0.1, 1, 0.9, 0.8, GGX, MASKING(NEUMANN, HEIGHT, SEPARABLE), BY(COSINE, POWER), 3.2, 0}},
 };
 
 /* eta, transport, reflectance that is constant or at normal incidence, and that at grazing */
@@ -409,9 +409,13 @@ lobe_bsdf case_with_other_transport(const test_case *c)
 
 double case_film_condition(const test_case *c)
 {
-	if (c->kind != LOBE_KIND_IRIDESCENT_CONDUCTOR && c->kind != LOBE_KIND_IRIDESCENT_DIELECTRIC)
+	const int iridescent = c->kind == LOBE_KIND_IRIDESCENT_CONDUCTOR || c->kind == LOBE_KIND_IRIDESCENT_DIELECTRIC;
+	const int chosen = (c->kind == LOBE_KIND_MICROFACET_CONDUCTOR || c->kind == LOBE_KIND_MICROFACET_DIELECTRIC) &&
+			   c->parameter[19] == LOBE_FRESNEL_FILM;
+	if (!iridescent && !chosen)
 		return 1.0;
 	/* 1/2.24e-3 nm is the shortest wavelength that counts; a film of many wavelengths has lost its colour. */
-	const double opd = fmin(2.0 * c->parameter[2] * c->parameter[3], 1e4);
+	const double *film = c->parameter + (chosen ? 20 : 2);
+	const double opd = fmin(2.0 * film[0] * film[1], 1e4);
 	return 1.0 + 2.0 * 6.2831853 * opd * 2.24e-3;
 }

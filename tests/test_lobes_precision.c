@@ -66,10 +66,9 @@ static double schlick_condition(const test_case *c, double cosine)
 
 /* A thin film's R and 1 - R are means and differences of waves: what is off by a rounding of the phase is off by so much
  * of the whole, not of what is left. */
-static double iridescent_conductor_condition(const test_case *c, double cosine)
+static double film_on_conductor_condition(const test_case *c, double cosine, lobe_film film, lobe_rgb eta, lobe_rgb k)
 {
-	const lobe_iridescent_conductor p = c->bsdf.as.iridescent_conductor;
-	const lobe_rgb f = lobe_thin_film_conductor_rgb((float)cosine, p.film, p.eta, p.k);
+	const lobe_rgb f = lobe_thin_film_conductor_rgb((float)cosine, film, eta, k);
 	return (8.0 + case_film_condition(c)) / fmax(fmin((double)f.r, (double)f.b), 1e-30);
 }
 
@@ -85,12 +84,21 @@ static double iridescent_dielectric_condition(const test_case *c, double cosine,
 
 static double opaque_condition(const test_case *c, double cosine)
 {
-	if (c->kind == LOBE_KIND_MICROFACET_CONDUCTOR &&
-	    c->bsdf.as.microfacet_conductor.fresnel.model != LOBE_FRESNEL_EXACT)
-		return 1.0; /* sums of positive terms */
-	return c->kind == LOBE_KIND_GGX_SCHLICK            ? schlick_condition(c, cosine)
-	       : c->kind == LOBE_KIND_IRIDESCENT_CONDUCTOR ? iridescent_conductor_condition(c, cosine)
-							   : conductor_condition(c, cosine);
+	const lobe_iridescent_conductor film = c->bsdf.as.iridescent_conductor;
+	const lobe_fresnel_model f = c->bsdf.as.microfacet_conductor.fresnel;
+	switch (c->kind) {
+	case LOBE_KIND_GGX_SCHLICK:
+		return schlick_condition(c, cosine);
+	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
+		return film_on_conductor_condition(c, cosine, film.film, film.eta, film.k);
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		return f.model == LOBE_FRESNEL_EXACT ? conductor_condition(c, cosine)
+		       : f.model == LOBE_FRESNEL_FILM
+			       ? film_on_conductor_condition(c, cosine, lobe_film_make(f.c, f.d), f.a, f.b)
+			       : 1.0; /* sums of positive terms */
+	default:
+		return conductor_condition(c, cosine);
+	}
 }
 
 static const lobe_microsurface *surface_of(const test_case *c)
@@ -114,7 +122,8 @@ static double surface_condition(const lobe_microsurface *s, const double o[3], c
 	const lobe_linear *m = &s->map;
 	const double up = h[2] < 0.0 ? -1.0 : 1.0, hz = up * h[2];
 	const double x = up * h[0] + (double)m->mean_x * hz, y = up * h[1] + (double)m->mean_y * hz;
-	const double big_x = fabs(h[0]) + fabs((double)m->mean_x) * hz, big_y = fabs(h[1]) + fabs((double)m->mean_y) * hz;
+	const double big_x = fabs(h[0]) + fabs((double)m->mean_x) * hz,
+		     big_y = fabs(h[1]) + fabs((double)m->mean_y) * hz;
 	const double fx = (double)m->ixx * x + (double)m->ixy * y, fy = (double)m->iyx * x + (double)m->iyy * y;
 	const double big_fx = fabs((double)m->ixx) * big_x + fabs((double)m->ixy) * big_y;
 	const double big_fy = fabs((double)m->iyx) * big_x + fabs((double)m->iyy) * big_y;
@@ -337,8 +346,16 @@ static void rough_glass_against_walter(textbook_ndf ndf)
 		const lobe_real ax = 0.05f + 0.95f * u[0] * u[0], ay = 0.05f + 0.95f * u[1] * u[1];
 		const lobe_real up = 1.05f + 1.95f * u[2], eta = j & 1u ? up : 1.0f / up;
 		const lobe_vec3 wo = lobe_vec3_make(a[0], a[1], a[2]), wi = lobe_vec3_make(b[0], b[1], b[2]);
-		test_case c = {
-			"random glass", LOBE_KIND_GGX_DIELECTRIC, {0}, {0}, CASE_TWO_SIDED | CASE_TRANSMITS, 0, 0, 0, 0, ndf};
+		test_case c = {"random glass",
+			       LOBE_KIND_GGX_DIELECTRIC,
+			       {0},
+			       {0},
+			       CASE_TWO_SIDED | CASE_TRANSMITS,
+			       0,
+			       0,
+			       0,
+			       0,
+			       ndf};
 		if (ndf == TEXTBOOK_BECKMANN)
 			c.kind = LOBE_KIND_BECKMANN_DIELECTRIC;
 		c.alpha_x = c.parameter[0] = (double)ax;
