@@ -5,6 +5,7 @@
 #ifndef LOBE_CORE_FRESNEL_H
 #define LOBE_CORE_FRESNEL_H
 
+#include "root.h"
 #include "vec.h"
 
 /* reflectance + transmittance = 1 to rounding. cos_t: cosine of the refracted side, >= 0; 0 at total reflection.
@@ -181,7 +182,7 @@ LOBE_FN lobe_real lobe_fresnel_conductor_num(lobe_fresnel_conductor_terms f) { r
 /* Between 1e-12 and 4e18 over the domain, or 0 where k = 0 and n = sin: kept off 0. */
 LOBE_FN lobe_real lobe_fresnel_conductor_den(lobe_fresnel_conductor_terms f)
 {
-	return lobe_max((f.p + f.xc) * f.scale, LOBE_R(0x1p-60));
+	return lobe_fma(f.p + f.xc, f.scale, LOBE_R(0x1p-63));
 }
 
 LOBE_FN lobe_real lobe_fresnel_conductor(lobe_real c, lobe_real n, lobe_real k)
