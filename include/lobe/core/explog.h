@@ -38,6 +38,18 @@ LOBE_FN lobe_real lobe_exp2(lobe_real x)
 	return lobe_nan_or(x, lobe_scale_exp(lobe_exp2_fraction(r), shifted));
 }
 
+/* e^r for |r| <= ln(2)/2. */
+LOBE_FN lobe_real lobe_exp_fraction(lobe_real r)
+{
+	lobe_real p = LOBE_R(0x1.694c86p-10);
+	p = lobe_fma(p, r, LOBE_R(0x1.12397cp-7));
+	p = lobe_fma(p, r, LOBE_R(0x1.555a26p-5));
+	p = lobe_fma(p, r, LOBE_R(0x1.555492p-3));
+	p = lobe_fma(p, r, LOBE_R(0x1.fffffap-2));
+	p = lobe_fma(p, r, LOBE_R(1.0));
+	return lobe_fma(p, r, LOBE_R(1.0));
+}
+
 /* e^x. Domain: every float; exp(-inf) = 0. Above the largest float it is inf, and subnormal results are rounded right.
  * x = k ln 2 + r with ln 2 in two floats. Measured: 0.90 ulp at x = -5.84864187. */
 LOBE_FN lobe_real lobe_exp(lobe_real x)
@@ -48,14 +60,17 @@ LOBE_FN lobe_real lobe_exp(lobe_real x)
 	const lobe_real shifted = lobe_fma(v, LOBE_R(0x1.715476p+0), LOBE_EXP_SHIFT);
 	const lobe_real k = shifted - LOBE_EXP_SHIFT;
 	const lobe_real r = lobe_fma(k, LOBE_R(0x1.05c61p-29), lobe_fma(k, LOBE_R(-0x1.62e43p-1), v));
-	lobe_real p = LOBE_R(0x1.694c86p-10);
-	p = lobe_fma(p, r, LOBE_R(0x1.12397cp-7));
-	p = lobe_fma(p, r, LOBE_R(0x1.555a26p-5));
-	p = lobe_fma(p, r, LOBE_R(0x1.555492p-3));
-	p = lobe_fma(p, r, LOBE_R(0x1.fffffap-2));
-	p = lobe_fma(p, r, LOBE_R(1.0));
-	p = lobe_fma(p, r, LOBE_R(1.0));
-	return lobe_nan_or(x, lobe_scale_exp(p, shifted));
+	return lobe_nan_or(x, lobe_scale_exp(lobe_exp_fraction(r), shifted));
+}
+
+/* e^x for |x| <= 87 without what any other x needs; the same error. */
+LOBE_FN lobe_real lobe_exp_normal(lobe_real x)
+{
+	const lobe_real whole = LOBE_R(0x1.8p+23); /* leaves k in the last bits */
+	const lobe_real shifted = lobe_fma(x, LOBE_R(0x1.715476p+0), whole);
+	const lobe_real k = shifted - whole;
+	const lobe_real r = lobe_fma(k, LOBE_R(0x1.05c61p-29), lobe_fma(k, LOBE_R(-0x1.62e43p-1), x));
+	return lobe_from_bits(lobe_to_bits(lobe_exp_fraction(r)) + (lobe_to_bits(shifted) << 23));
 }
 
 /* x = 2^exponent * (1 + fraction) with 1 + fraction in [sqrt(1/2), sqrt(2)), for 0 < x < inf. */
@@ -98,6 +113,20 @@ LOBE_FN lobe_real lobe_log(lobe_real x)
 	p = lobe_fma(p, f, LOBE_R(-0.5));
 	const lobe_real rest = lobe_fma(f * f, p, b.exponent * LOBE_R(-0x1.05c61p-29));
 	return lobe_log_domain(x, lobe_fma(b.exponent, LOBE_R(0x1.62e43p-1), f + rest));
+}
+
+/* log(x) of a normal number to 1.1e-5, where |log(x)| is small relative: for a start. */
+LOBE_FN lobe_real lobe_log_rough(lobe_real x)
+{
+	const lobe_uint bits = lobe_to_bits(x) + 0x4afb0du;
+	const lobe_real exponent = (lobe_real)((lobe_int)(bits >> 23) - 127);
+	const lobe_real f = lobe_from_bits((bits & 0x7fffffu) + 0x3f3504f3u) - LOBE_R(1.0);
+	lobe_real p = LOBE_R(0x1.66ab7ep-3);
+	p = lobe_fma(p, f, LOBE_R(-0x1.18109cp-2));
+	p = lobe_fma(p, f, LOBE_R(0x1.597114p-2));
+	p = lobe_fma(p, f, LOBE_R(-0x1.ff370ep-2));
+	p = lobe_fma(p, f, LOBE_R(0x1.fff55ep-1));
+	return lobe_fma(exponent, LOBE_R(0x1.62e43p-1), f * p);
 }
 
 /* Logarithm to base 2. Domain: x >= 0, subnormal numbers too; log2(+-0) = -inf, log2(inf) = inf, NaN below 0. Exact at
