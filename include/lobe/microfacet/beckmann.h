@@ -32,7 +32,7 @@ LOBE_FN lobe_facet_density lobe_beckmann_density_over(lobe_vec3 h, lobe_real s)
 {
 	lobe_facet_density d;
 	const lobe_real inv = LOBE_R(1.0) / (h.z * h.z);
-	d.inv = inv / s; /* apart, as the exponential is long enough without waiting for s */
+	d.inv = inv * (LOBE_R(1.0) / s); /* apart, as the exponential is long enough without waiting for s */
 	d.factor = lobe_exp(-lobe_fma(h.x, h.x, h.y * h.y) * inv);
 	return d;
 }
@@ -250,7 +250,8 @@ LOBE_FN lobe_vec3 lobe_beckmann_normal(lobe_vec3 v, lobe_real x, lobe_real u)
 	const lobe_beckmann_angle a = lobe_beckmann_angle_of(v);
 	const lobe_real cos_phi = a.r > LOBE_R(0.0) ? v.x * a.inv_r : LOBE_R(1.0);
 	const lobe_real sin_phi = a.r > LOBE_R(0.0) ? v.y * a.inv_r : LOBE_R(0.0);
-	const lobe_real y = lobe_erfinv(lobe_fma(LOBE_R(2.0), u, -LOBE_BELOW_ONE));
+	const lobe_real erf_y = lobe_fma(LOBE_R(2.0), u, -LOBE_BELOW_ONE);
+	const lobe_real y = lobe_erfinv_from(erf_y, lobe_fma(-erf_y, erf_y, LOBE_R(1.0)));
 	return lobe_vec3_make(lobe_fma(cos_phi, x, -sin_phi * y), lobe_fma(sin_phi, x, cos_phi * y), LOBE_R(1.0));
 }
 
