@@ -5,7 +5,6 @@
 #ifndef LOBE_CORE_FRESNEL_H
 #define LOBE_CORE_FRESNEL_H
 
-#include "root.h"
 #include "vec.h"
 
 /* reflectance + transmittance = 1 to rounding. cos_t: cosine of the refracted side, >= 0; 0 at total reflection.

@@ -114,10 +114,7 @@ LOBE_FN lobe_vec3 lobe_sphere_cap(lobe_vec2 u, lobe_real radius, lobe_real heigh
 
 /* Direction uniform over the spherical cap 1 - z <= height; height in (0, 2] is 1 - cos of the cap's half angle
  * (1: hemisphere, 2: sphere). */
-LOBE_FN lobe_vec3 lobe_spherical_cap(lobe_vec2 u, lobe_real height)
-{
-	return lobe_sphere_cap(u, LOBE_R(1.0), height);
-}
+LOBE_FN lobe_vec3 lobe_spherical_cap(lobe_vec2 u, lobe_real height) { return lobe_sphere_cap(u, LOBE_R(1.0), height); }
 
 /* [1/sr], inside the cap. */
 LOBE_FN lobe_real lobe_spherical_cap_pdf(lobe_real height) { return LOBE_R(1.0) / (LOBE_2PI * height); }

@@ -45,9 +45,10 @@ LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 /* A normal visible from v, v.z > 0; t: lobe_ndf_t(ndf, v). */
 LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
+	(void)t;
 #if LOBE_HAS_NDF_BECKMANN
 	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
-		return lobe_beckmann_visible_above(v, t, u);
+		return lobe_beckmann_visible_above(v, u);
 #endif
 #if LOBE_HAS_NDF_GGX
 	(void)ndf;
