@@ -63,7 +63,7 @@ LOBE_FN lobe_real lobe_exp(lobe_real x)
 	return lobe_nan_or(x, lobe_scale_exp(lobe_exp_fraction(r), shifted));
 }
 
-/* e^x for |x| <= 87 without what any other x needs; the same error. */
+/* e^x for |x| <= 87 without what any other x needs; the same bits. */
 LOBE_FN lobe_real lobe_exp_normal(lobe_real x)
 {
 	const lobe_real whole = LOBE_R(0x1.8p+23); /* leaves k in the last bits */
@@ -128,7 +128,7 @@ LOBE_FN lobe_real lobe_log(lobe_real x) { return lobe_log_domain(x, lobe_log_bin
 /* The same for a normal number. */
 LOBE_FN lobe_real lobe_log_normal(lobe_real x) { return lobe_log_binary(lobe_normal_to_binary(x)); }
 
-/* The same to 1.1e-5, and where x is near 1 relative: for a start. */
+/* The same to 1.5e-5, and near 1 to 1.1e-4 of itself: for a start. */
 LOBE_FN lobe_real lobe_log_rough(lobe_real x)
 {
 	const lobe_binary b = lobe_normal_to_binary(x);
