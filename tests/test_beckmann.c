@@ -325,10 +325,7 @@ static lobe_vec3 sample_wrong_view(lobe_vec3 v, lobe_vec2 u)
 	return lobe_beckmann_visible(lobe_vec3_make(v.x, v.y, 1.03f * v.z), u);
 }
 
-static lobe_vec3 sample_above(lobe_vec3 v, lobe_vec2 u)
-{
-	return lobe_beckmann_visible_above(v, u);
-}
+static lobe_vec3 sample_above(lobe_vec3 v, lobe_vec2 u) { return lobe_beckmann_visible_above(v, u); }
 
 /* Chi-square over cells of equal probability: in X by the complement of its distribution, in Y by that of a Gaussian,
  * which the exact formulas tell apart from how the sampler inverts them. */
