@@ -149,8 +149,9 @@ LOBE_FN lobe_real lobe_beckmann_slope_step(lobe_beckmann_slope s, lobe_real x)
 	return lobe_abs(step) < LOBE_R(0.75) * f ? x + step : x;
 }
 
-/* A start within .03 of X, and within a few per cent of erfc(X) and of f = X + c where those are small: enough for the
- * step to leave 8e-8 of the distribution.
+/* A start within .08 of X for share and rest above 1e-3, and beyond within a quarter of f = X + c and a fifth of erfc(X):
+ * enough for the step to leave 4e-8 of the distribution. Where c > 3 and rest < 2e-5 it is up to .6 off, and 8e-8 are
+ * left.
  *
  * With y = erf(X) and y0 = erf(-c), w = (y - y0)/(1 - y0) goes from 0 to 1; 1 - S begins as w^2/m and is w in the limit
  * of normal incidence. 1 - S = w^2/(m + (1 - m) w), a quadratic equation, is right there and at w = 1. 1 + y0 and m are
