@@ -56,6 +56,14 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 #define VECTORISE
 #endif
 
+/* A sample is one long chain of dependent operations, longer than a processor looks ahead: gcc schedules two vectors of
+ * them into each other. With SSE2 there are too few registers. clang does so of its own accord where it sees fit. */
+#if defined(__GNUC__) && !defined(__clang__) && defined(__AVX2__)
+#define TWICE _Pragma("GCC unroll 2")
+#else
+#define TWICE VECTORISE
+#endif
+
 #define INPUTS                                                                                                         \
 	const word *restrict words, const uint32_t *restrict slot, size_t n, const float *restrict ox,                 \
 		const float *restrict oy, const float *restrict oz, const float *restrict ix,                          \
@@ -124,7 +132,7 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS, F_OUTPUTS, float *restrict pdf)                                  \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
+		TWICE for (size_t i = 0; i < n; i++)                                                                   \
 		{                                                                                                      \
 			FETCH(which)                                                                                   \
 			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \
@@ -144,7 +152,7 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS)                                                                  \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
-		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
+		TWICE for (size_t i = 0; i < n; i++)                                                                   \
 		{                                                                                                      \
 			FETCH(which)                                                                                   \
 			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \

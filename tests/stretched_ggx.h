@@ -18,7 +18,8 @@ static inline lobe_real stretched_ggx_t(lobe_stretch s, lobe_vec3 w)
 	return lobe_ggx_t(lobe_stretch_direction(s, w));
 }
 
-/* A normal visible from w, w.z > 0, times a positive number. t: stretched_ggx_t(s, w). */
+/* A normal visible from w, w.z > 0, times a positive number: t times as long as the sum of a cap's point and the unit
+ * vector of the stretched w is. t: stretched_ggx_t(s, w). */
 static inline lobe_vec3 stretched_ggx_visible(lobe_stretch s, lobe_vec3 w, lobe_real t, lobe_vec2 u)
 {
 	return lobe_stretch_normal(s, lobe_ggx_visible_above(lobe_stretch_direction(s, w), t, u));

@@ -132,7 +132,8 @@ static void test_d_domain(void)
 		}
 	}
 	/* Widths are clamped, and a NaN is kept. */
-	TEST_ASSERT_TRUE(lobe_stretch_make(0.0f, 7.0f).alpha_x == 1e-4f && lobe_stretch_make(0.0f, 7.0f).alpha_y == 1.0f);
+	TEST_ASSERT_TRUE(lobe_stretch_make(0.0f, 7.0f).alpha_x == 1e-4f &&
+			 lobe_stretch_make(0.0f, 7.0f).alpha_y == 1.0f);
 	TEST_ASSERT_TRUE(isnan(lobe_stretch_make(NAN, 0.5f).alpha_x) && lobe_stretch_make(NAN, 0.5f).alpha_y == 0.5f);
 }
 
@@ -204,7 +205,8 @@ static void test_normalisation(void)
 	double worst = 0.0;
 	for (size_t i = 0; i < WIDTHS; i++) {
 		for (size_t j = 0; j < WIDTHS; j++) {
-			const integrand f = {lobe_stretch_make(widths[i], widths[j]), {0.0f, 0.0f, 1.0f}, weight_normal};
+			const integrand f = {
+				lobe_stretch_make(widths[i], widths[j]), {0.0f, 0.0f, 1.0f}, weight_normal};
 			worst = worse(worst, fabs(integrate(&f, 0.0, 1.0, 0.0, 2.0 * (double)PI, 40) - 1.0));
 		}
 	}
@@ -357,11 +359,15 @@ static void test_stretch_invariance(void)
 				worst_t = worse(worst_t, fabs((double)stretched_ggx_t(one, o) - 1.0));
 				/* The same u picks the same facet. */
 				const lobe_vec2 u = {test_uniform(7, 2 * l), test_uniform(7, 2 * l + 1)};
-				const lobe_vec3 a = stretched_ggx_visible(d, w, stretched_ggx_t(d, w), u);
-				const lobe_vec3 b = stretched_ggx_visible(one, o, stretched_ggx_t(one, o), u);
-				worst_sample = worse(worst_sample, fabs((double)a.x / (double)widths[i] - (double)b.x));
-				worst_sample = worse(worst_sample, fabs((double)a.y / (double)widths[j] - (double)b.y));
-				worst_sample = worse(worst_sample, fabs((double)a.z - (double)b.z));
+				const float t_a = stretched_ggx_t(d, w), t_b = stretched_ggx_t(one, o);
+				const lobe_vec3 a = stretched_ggx_visible(d, w, t_a, u);
+				const lobe_vec3 b = stretched_ggx_visible(one, o, t_b, u);
+				const double of_a = 1.0 / (double)t_a, of_b = 1.0 / (double)t_b;
+				const double ax = (double)a.x * of_a / (double)widths[i],
+					     ay = (double)a.y * of_a / (double)widths[j];
+				worst_sample = worse(worst_sample, fabs(ax - (double)b.x * of_b));
+				worst_sample = worse(worst_sample, fabs(ay - (double)b.y * of_b));
+				worst_sample = worse(worst_sample, fabs((double)a.z * of_a - (double)b.z * of_b));
 			}
 		}
 	}
@@ -523,7 +529,7 @@ static void test_visible_extremes(void)
 							       (double)m.x, (double)m.y, (double)m.z);
 						continue;
 					}
-					lowest = fmin(lowest, (double)m.z);
+					lowest = fmin(lowest, (double)m.z / (double)t);
 					shortest = fmin(shortest, len);
 					hidden = larger(hidden, -c / len);
 				}

@@ -2,11 +2,15 @@
 
 Both are measured in turn, round by round and row by row, on batches of the same size, so that other programs on the machine
 hit both alike; a ratio is the median over the rounds of the ratio within a round. Compile time is excluded. The same
-materials: gold and glass (1.5) of alpha .3 and .2. Run by bench/peers/mitsuba.sh (make bench-peers); --help lists options.
+materials: gold and glass (1.5) of alpha .3 and .2. Mitsuba has no microfacet BSDF with Schlick's Fresnel; beside
+ggx_schlick stands its nearest, the conductor. --isa holds both to one vector width, to see what another machine would do.
+Run by bench/peers/mitsuba.sh (make bench-peers); --help lists options.
 """
 
 import argparse
 import csv
+import ctypes
+import glob
 import os
 import statistics
 import subprocess
@@ -17,10 +21,14 @@ del sys.path[0]  # the folder of this file, which would be taken for the package
 
 ROUGH = {"alpha_u": 0.3, "alpha_v": 0.2}
 
+# LOBE_ISA of ours: the processor that LLVM is to compile for, and its floats in a vector.
+TARGETS = {"avx512": (b"skylake-avx512", 16), "avx2": (b"haswell", 8)}
+
 # Our lobe, and Mitsuba's BSDF.
 ROWS = [
     ("lambert", {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.8, 0.5, 0.2]}}),
     ("ggx_conductor", {"type": "roughconductor", "distribution": "ggx", "material": "Au", **ROUGH}),
+    ("ggx_schlick", {"type": "roughconductor", "distribution": "ggx", "material": "Au", **ROUGH}),
     ("beckmann_conductor", {"type": "roughconductor", "distribution": "beckmann", "material": "Au", **ROUGH}),
     ("ggx_dielectric", {"type": "roughdielectric", "distribution": "ggx", "int_ior": 1.5, "ext_ior": 1.0, **ROUGH}),
     ("beckmann_dielectric",
@@ -73,6 +81,16 @@ class Peer:
         return statistics.median(rates)
 
 
+def hold_to(dr, isa):
+    """Both to one instruction set. Python has no name for Dr.Jit's jit_llvm_set_target(cpu, features, width)."""
+    os.environ["LOBE_ISA"] = isa
+    core = glob.glob(os.path.join(os.path.dirname(dr.__file__), "libdrjit-core.so*"))
+    set_target = ctypes.CDLL(core[0])["_Z19jit_llvm_set_targetPKcS0_j"]
+    set_target.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_uint32]
+    set_target.restype = None
+    set_target(TARGETS[isa][0], None, TARGETS[isa][1])
+
+
 def ours(lobe, verb, n, runs):
     """The median that our benchmark writes, or None for a lobe that this build does not have."""
     path = "build/peers/ours.csv"
@@ -95,6 +113,7 @@ def main():
     parser.add_argument("--n", type=int, default=1 << 20, help="elements of a batch (default %(default)s)")
     parser.add_argument("--rounds", type=int, default=7, help="default %(default)s")
     parser.add_argument("--runs", type=int, default=5, help="of which each round takes the median (default %(default)s)")
+    parser.add_argument("--isa", choices=sorted(TARGETS), help="the instruction set of both (default: the widest here)")
     options = parser.parse_args()
     rows = [row for row in ROWS if options.lobe in (None, row[0])]
     if not rows:
@@ -104,17 +123,19 @@ def main():
         import mitsuba as mi
         mi.set_variant("llvm_ad_rgb")
         dr.set_thread_count(1)
+        if options.isa:
+            hold_to(dr, options.isa)
         dr.eval(mi.Float(1.0) + dr.arange(mi.Float, 4))
         dr.sync_thread()
     except Exception as reason:  # whatever keeps Mitsuba from running
         print("bench-peers: skipped: Mitsuba does not run here:", reason)
         return
     print(f"Mitsuba {mi.__version__} (llvm_ad_rgb, {os.path.basename(os.environ.get('DRJIT_LIBLLVM_PATH', 'libLLVM'))})"
-          f" and lobe (native:1), one thread each, {options.n} elements.")
+          f" and lobe (native:1), one thread each, {options.n} elements, {options.isa or 'the widest vectors'}.")
     print(f"Medians of {options.rounds} rounds in turn, each the median of {options.runs} runs. ratio: lobe over Mitsuba"
           " within a round; range: its least and most.\n")
-    print(f"{'lobe':<20} {'verb':<9} {'Mitsuba':>9} {'lobe':>9} {'ratio':>7} {'range':>13}")
-    print(f"{'':<20} {'':<9} {'M/s':>9} {'M/s':>9} {'x':>7} {'x':>13}")
+    print(f"{'lobe':<20} {'Mitsuba has':<23} {'verb':<9} {'Mitsuba':>9} {'lobe':>9} {'ratio':>7} {'range':>13}")
+    print(f"{'':<20} {'':<23} {'':<9} {'M/s':>9} {'M/s':>9} {'x':>7} {'x':>13}")
     os.makedirs("out/bench", exist_ok=True)
     with open("out/bench/peers.csv", "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
@@ -122,6 +143,7 @@ def main():
                         "ratio_max"])
         for lobe, bsdf in rows:
             peer = Peer(mi, dr, bsdf, options.n)
+            name = " ".join([bsdf["type"], bsdf.get("distribution", "")])
             for verb in [options.verb] if options.verb else VERBS:
                 theirs, mine = [], []
                 for _ in range(options.rounds):
@@ -129,12 +151,12 @@ def main():
                     mine.append(ours(lobe, verb, options.n, options.runs))
                 rate = statistics.median(theirs)
                 if mine[0] is None:
-                    print(f"{lobe:<20} {verb:<9} {rate:9.1f} {'-':>9} {'-':>7} {'-':>13}")
+                    print(f"{lobe:<20} {name:<23} {verb:<9} {rate:9.1f} {'-':>9} {'-':>7} {'-':>13}")
                     table.writerow([lobe, verb, f"{rate:.2f}", "-", "-", "-", "-"])
                     continue
                 ratios = [a / b for a, b in zip(mine, theirs)]
                 spread = f"{min(ratios):.2f}..{max(ratios):.2f}"
-                print(f"{lobe:<20} {verb:<9} {rate:9.1f} {statistics.median(mine):9.1f}"
+                print(f"{lobe:<20} {name:<23} {verb:<9} {rate:9.1f} {statistics.median(mine):9.1f}"
                       f" {statistics.median(ratios):7.2f} {spread:>13}", flush=True)
                 table.writerow([lobe, verb, f"{rate:.2f}", f"{statistics.median(mine):.2f}",
                                 f"{statistics.median(ratios):.3f}", f"{min(ratios):.3f}", f"{max(ratios):.3f}"])

@@ -92,7 +92,7 @@ LOBE_FN lobe_real lobe_ierfcx(lobe_real x)
  * refitted after each coefficient was rounded to a float. */
 LOBE_FN lobe_real lobe_erfinv_from(lobe_real x, lobe_real d)
 {
-	const lobe_real w = -lobe_log(d);
+	const lobe_real w = -lobe_log_normal(d);
 	lobe_real p = LOBE_R(-0x1.7d6574p-28);
 	p = lobe_fma(p, w, LOBE_R(0x1.42b946p-23));
 	p = lobe_fma(p, w, LOBE_R(-0x1.668676p-20));

@@ -38,6 +38,18 @@ LOBE_FN lobe_real lobe_exp2(lobe_real x)
 	return lobe_nan_or(x, lobe_scale_exp(lobe_exp2_fraction(r), shifted));
 }
 
+/* e^r for |r| <= ln(2)/2. */
+LOBE_FN lobe_real lobe_exp_fraction(lobe_real r)
+{
+	lobe_real p = LOBE_R(0x1.694c86p-10);
+	p = lobe_fma(p, r, LOBE_R(0x1.12397cp-7));
+	p = lobe_fma(p, r, LOBE_R(0x1.555a26p-5));
+	p = lobe_fma(p, r, LOBE_R(0x1.555492p-3));
+	p = lobe_fma(p, r, LOBE_R(0x1.fffffap-2));
+	p = lobe_fma(p, r, LOBE_R(1.0));
+	return lobe_fma(p, r, LOBE_R(1.0));
+}
+
 /* e^x. Domain: every float; exp(-inf) = 0. Above the largest float it is inf, and subnormal results are rounded right.
  * x = k ln 2 + r with ln 2 in two floats. Measured: 0.90 ulp at x = -5.84864187. */
 LOBE_FN lobe_real lobe_exp(lobe_real x)
@@ -48,14 +60,17 @@ LOBE_FN lobe_real lobe_exp(lobe_real x)
 	const lobe_real shifted = lobe_fma(v, LOBE_R(0x1.715476p+0), LOBE_EXP_SHIFT);
 	const lobe_real k = shifted - LOBE_EXP_SHIFT;
 	const lobe_real r = lobe_fma(k, LOBE_R(0x1.05c61p-29), lobe_fma(k, LOBE_R(-0x1.62e43p-1), v));
-	lobe_real p = LOBE_R(0x1.694c86p-10);
-	p = lobe_fma(p, r, LOBE_R(0x1.12397cp-7));
-	p = lobe_fma(p, r, LOBE_R(0x1.555a26p-5));
-	p = lobe_fma(p, r, LOBE_R(0x1.555492p-3));
-	p = lobe_fma(p, r, LOBE_R(0x1.fffffap-2));
-	p = lobe_fma(p, r, LOBE_R(1.0));
-	p = lobe_fma(p, r, LOBE_R(1.0));
-	return lobe_nan_or(x, lobe_scale_exp(p, shifted));
+	return lobe_nan_or(x, lobe_scale_exp(lobe_exp_fraction(r), shifted));
+}
+
+/* e^x for |x| <= 87 without what any other x needs; the same bits. */
+LOBE_FN lobe_real lobe_exp_normal(lobe_real x)
+{
+	const lobe_real whole = LOBE_R(0x1.8p+23); /* leaves k in the last bits */
+	const lobe_real shifted = lobe_fma(x, LOBE_R(0x1.715476p+0), whole);
+	const lobe_real k = shifted - whole;
+	const lobe_real r = lobe_fma(k, LOBE_R(0x1.05c61p-29), lobe_fma(k, LOBE_R(-0x1.62e43p-1), x));
+	return lobe_from_bits(lobe_to_bits(lobe_exp_fraction(r)) + (lobe_to_bits(shifted) << 23));
 }
 
 /* x = 2^exponent * (1 + fraction) with 1 + fraction in [sqrt(1/2), sqrt(2)), for 0 < x < inf. */
@@ -63,15 +78,23 @@ typedef struct {
 	lobe_real exponent, fraction;
 } lobe_binary;
 
-/* Adding the bits of 1 - those of sqrt(1/2) carries into the exponent where the mantissa is sqrt(2) or more. */
+/* bits of a normal number and the exponent's bias. Adding the bits of 1 - those of sqrt(1/2) carries into the exponent
+ * where the mantissa is sqrt(2) or more. */
+LOBE_FN lobe_binary lobe_bits_to_binary(lobe_uint bits_in, lobe_int bias)
+{
+	const lobe_uint bits = bits_in + 0x4afb0du;
+	lobe_binary b;
+	b.exponent = (lobe_real)((lobe_int)(bits >> 23) - bias);
+	b.fraction = lobe_from_bits((bits & 0x7fffffu) + 0x3f3504f3u) - LOBE_R(1.0);
+	return b;
+}
+
+LOBE_FN lobe_binary lobe_normal_to_binary(lobe_real x) { return lobe_bits_to_binary(lobe_to_bits(x), 127); }
+
 LOBE_FN lobe_binary lobe_to_binary(lobe_real x)
 {
 	const lobe_uint subnormal = x < LOBE_R(0x1p-126);
-	const lobe_uint bits = lobe_to_bits(subnormal ? x * LOBE_R(0x1p+23) : x) + 0x4afb0du;
-	lobe_binary b;
-	b.exponent = (lobe_real)((lobe_int)(bits >> 23) - (subnormal ? 150 : 127));
-	b.fraction = lobe_from_bits((bits & 0x7fffffu) + 0x3f3504f3u) - LOBE_R(1.0);
-	return b;
+	return lobe_bits_to_binary(lobe_to_bits(subnormal ? x * LOBE_R(0x1p+23) : x), subnormal ? 150 : 127);
 }
 
 /* v, the logarithm of x > 0, or what belongs to any other x. */
@@ -81,11 +104,9 @@ LOBE_FN lobe_real lobe_log_domain(lobe_real x, lobe_real v)
 	return x > LOBE_R(0.0) ? (x <= LOBE_REAL_MAX ? v : x) : other;
 }
 
-/* Natural logarithm. Domain: x >= 0, subnormal numbers too; log(+-0) = -inf, log(inf) = inf, NaN below 0.
- * Measured: 0.86 ulp at x = 1.2758323. */
-LOBE_FN lobe_real lobe_log(lobe_real x)
+/* Its natural logarithm. */
+LOBE_FN lobe_real lobe_log_binary(lobe_binary b)
 {
-	const lobe_binary b = lobe_to_binary(x);
 	const lobe_real f = b.fraction;
 	lobe_real p = LOBE_R(-0x1.2a6f78p-4);
 	p = lobe_fma(p, f, LOBE_R(0x1.015974p-3));
@@ -97,7 +118,27 @@ LOBE_FN lobe_real lobe_log(lobe_real x)
 	p = lobe_fma(p, f, LOBE_R(0x1.55557p-2));
 	p = lobe_fma(p, f, LOBE_R(-0.5));
 	const lobe_real rest = lobe_fma(f * f, p, b.exponent * LOBE_R(-0x1.05c61p-29));
-	return lobe_log_domain(x, lobe_fma(b.exponent, LOBE_R(0x1.62e43p-1), f + rest));
+	return lobe_fma(b.exponent, LOBE_R(0x1.62e43p-1), f + rest);
+}
+
+/* Natural logarithm. Domain: x >= 0, subnormal numbers too; log(+-0) = -inf, log(inf) = inf, NaN below 0.
+ * Measured: 0.86 ulp at x = 1.2758323. */
+LOBE_FN lobe_real lobe_log(lobe_real x) { return lobe_log_domain(x, lobe_log_binary(lobe_to_binary(x))); }
+
+/* The same for a normal number. */
+LOBE_FN lobe_real lobe_log_normal(lobe_real x) { return lobe_log_binary(lobe_normal_to_binary(x)); }
+
+/* The same to 1.5e-5, and near 1 to 1.1e-4 of itself: for a start. */
+LOBE_FN lobe_real lobe_log_rough(lobe_real x)
+{
+	const lobe_binary b = lobe_normal_to_binary(x);
+	const lobe_real f = b.fraction;
+	lobe_real p = LOBE_R(0x1.66ab7ep-3);
+	p = lobe_fma(p, f, LOBE_R(-0x1.18109cp-2));
+	p = lobe_fma(p, f, LOBE_R(0x1.597114p-2));
+	p = lobe_fma(p, f, LOBE_R(-0x1.ff370ep-2));
+	p = lobe_fma(p, f, LOBE_R(0x1.fff55ep-1));
+	return lobe_fma(b.exponent, LOBE_R(0x1.62e43p-1), f * p);
 }
 
 /* Logarithm to base 2. Domain: x >= 0, subnormal numbers too; log2(+-0) = -inf, log2(inf) = inf, NaN below 0. Exact at

@@ -178,10 +178,10 @@ LOBE_FN lobe_fresnel_conductor_terms lobe_fresnel_conductor_terms_make(lobe_fres
 
 LOBE_FN lobe_real lobe_fresnel_conductor_num(lobe_fresnel_conductor_terms f) { return (f.p - f.xc) * f.e; }
 
-/* Between 1e-12 and 4e18 over the domain, or 0 where k = 0 and n = sin: kept off 0. */
+/* Mostly between 1e-12 and 4e18 over the domain; 0 where k = 0 and n = sin, which 2^-75 keeps it off. */
 LOBE_FN lobe_real lobe_fresnel_conductor_den(lobe_fresnel_conductor_terms f)
 {
-	return lobe_max((f.p + f.xc) * f.scale, LOBE_R(0x1p-60));
+	return lobe_fma(f.p + f.xc, f.scale, LOBE_R(0x1p-75));
 }
 
 LOBE_FN lobe_real lobe_fresnel_conductor(lobe_real c, lobe_real n, lobe_real k)

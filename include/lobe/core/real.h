@@ -1,7 +1,7 @@
 /* real.h - elementary functions with the same bits on every backend.
  *
  * lobe_sincos_2pi lobe_sin lobe_cos lobe_tan lobe_asin lobe_acos lobe_atan lobe_atan2   trig.h
- * lobe_exp lobe_exp2 lobe_log lobe_log2 lobe_pow                                        explog.h
+ * lobe_exp lobe_exp2 lobe_log lobe_log2 lobe_pow lobe_exp_normal lobe_log_rough         explog.h
  * lobe_erf lobe_erfcx lobe_ierfcx lobe_erfinv                                           erf.h
  *
  * In single precision each is a few polynomials without a branch, a loop, a table or a call into libm, so that a row
@@ -40,8 +40,10 @@ LOBE_FN lobe_real lobe_acos(lobe_real x) { return acos(x); }
 LOBE_FN lobe_real lobe_atan(lobe_real x) { return atan(x); }
 LOBE_FN lobe_real lobe_atan2(lobe_real y, lobe_real x) { return atan2(y, x); }
 LOBE_FN lobe_real lobe_exp(lobe_real x) { return exp(x); }
+LOBE_FN lobe_real lobe_exp_normal(lobe_real x) { return exp(x); }
 LOBE_FN lobe_real lobe_exp2(lobe_real x) { return exp2(x); }
 LOBE_FN lobe_real lobe_log(lobe_real x) { return log(x); }
+LOBE_FN lobe_real lobe_log_rough(lobe_real x) { return log(x); }
 LOBE_FN lobe_real lobe_log2(lobe_real x) { return log2(x); }
 LOBE_FN lobe_real lobe_pow(lobe_real x, lobe_real y) { return x < 0.0 && y != 0.0 ? (double)NAN : pow(fabs(x), y); }
 LOBE_FN lobe_real lobe_erf(lobe_real x) { return erf(x); }

@@ -102,15 +102,19 @@ LOBE_FN lobe_vec2 lobe_cosine_hemisphere_inverse(lobe_vec3 w)
 	return lobe_concentric_disk_inverse(lobe_vec2_make(w.x, w.y));
 }
 
-/* Direction uniform over the spherical cap 1 - z <= height about +z; height in (0, 2] is 1 - cos of the cap's half angle
- * (1: hemisphere, 2: sphere). u.x goes round, u.y from the pole to the rim. Written in 1 - z, which does not cancel. */
-LOBE_FN lobe_vec3 lobe_spherical_cap(lobe_vec2 u, lobe_real height)
+/* Point uniform over the cap radius - z <= height about +z of a sphere; height in (0, 2 radius]. u.x goes round, u.y from
+ * the pole to the rim. Written in radius - z, which does not cancel. */
+LOBE_FN lobe_vec3 lobe_sphere_cap(lobe_vec2 u, lobe_real radius, lobe_real height)
 {
 	const lobe_real h = u.y * height;
-	const lobe_real s = lobe_sqrt(h * (LOBE_R(2.0) - h));
+	const lobe_real s = lobe_sqrt(h * ((radius + radius) - h));
 	const lobe_sincos sc = lobe_sincos_2pi(u.x);
-	return lobe_vec3_make(s * sc.c, s * sc.s, LOBE_R(1.0) - h);
+	return lobe_vec3_make(s * sc.c, s * sc.s, radius - h);
 }
+
+/* Direction uniform over the spherical cap 1 - z <= height; height in (0, 2] is 1 - cos of the cap's half angle
+ * (1: hemisphere, 2: sphere). */
+LOBE_FN lobe_vec3 lobe_spherical_cap(lobe_vec2 u, lobe_real height) { return lobe_sphere_cap(u, LOBE_R(1.0), height); }
 
 /* [1/sr], inside the cap. */
 LOBE_FN lobe_real lobe_spherical_cap_pdf(lobe_real height) { return LOBE_R(1.0) / (LOBE_2PI * height); }

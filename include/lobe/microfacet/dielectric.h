@@ -95,7 +95,7 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_make(lobe_uint n
 	const lobe_real up = h.z < zero ? -one : one;
 	const lobe_real oh = reflects ? LOBE_R(0.5) * h2 : up * lobe_dot(v.o, h);
 	const lobe_real ih = reflects ? LOBE_R(0.5) * h2 : up * lobe_dot(i, h);
-	const lobe_facet_density d = lobe_ndf_density(ndf, lobe_stretch_facet(p.stretch, h));
+	const lobe_facet_density d = lobe_ndf_density_over(ndf, lobe_stretch_facet(p.stretch, h), LOBE_R(1.0));
 	const lobe_real x = e_r * d.inv;
 	const lobe_real refracts = lobe_min(lobe_min(oh, -ih), -i.z);
 	const lobe_real refracts_to_density = p.delta == 0u ? refracts : zero;

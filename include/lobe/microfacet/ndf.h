@@ -16,15 +16,16 @@
 #include "beckmann.h"
 #endif
 
-LOBE_FN lobe_facet_density lobe_ndf_density(lobe_uint ndf, lobe_vec3 h)
+/* lobe_X_density(h) of facet.h with inv over s, which shares its division. */
+LOBE_FN lobe_facet_density lobe_ndf_density_over(lobe_uint ndf, lobe_vec3 h, lobe_real s)
 {
 #if LOBE_HAS_NDF_BECKMANN
 	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
-		return lobe_beckmann_density(h);
+		return lobe_beckmann_density_over(h, s);
 #endif
 #if LOBE_HAS_NDF_GGX
 	(void)ndf;
-	return lobe_ggx_density(h);
+	return lobe_ggx_density_over(h, s);
 #endif
 }
 
@@ -44,9 +45,10 @@ LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 /* A normal visible from v, v.z > 0; t: lobe_ndf_t(ndf, v). */
 LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
+	(void)t;
 #if LOBE_HAS_NDF_BECKMANN
 	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
-		return lobe_beckmann_visible_above(v, t, u);
+		return lobe_beckmann_visible_above(v, u);
 #endif
 #if LOBE_HAS_NDF_GGX
 	(void)ndf;

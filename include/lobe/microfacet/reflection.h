@@ -17,14 +17,6 @@
 #include "ndf.h"
 #include "stretch.h"
 
-/* D(h)/4. NaN for H = 0. */
-LOBE_FN lobe_real lobe_reflection_quarter_d(lobe_uint ndf, lobe_stretch s, lobe_vec3 h, lobe_real h2)
-{
-	const lobe_facet_density d = lobe_ndf_density(ndf, lobe_stretch_facet(s, h));
-	const lobe_real x = LOBE_R(0.5) * h2 * d.inv;
-	return s.norm * x * x * d.factor;
-}
-
 /* Both directions above the surface, every parameter a number and the density x too; x is then >= 0. */
 LOBE_FN int lobe_reflection_ok(lobe_real params, lobe_vec3 wo, lobe_vec3 wi, lobe_real x)
 {
@@ -37,21 +29,35 @@ LOBE_FN lobe_real lobe_reflection_t(lobe_uint ndf, lobe_stretch s, lobe_vec3 w)
 	return lobe_ndf_t(ndf, lobe_stretch_direction(s, w));
 }
 
+/* D(h)/(4 sigma(wo)) [1/sr], two_sigma = 2 sigma(wo). NaN for H = 0. */
+LOBE_FN lobe_real lobe_reflection_density(lobe_uint ndf, lobe_stretch s, lobe_vec3 h, lobe_real h2, lobe_real two_sigma)
+{
+	const lobe_facet_density d = lobe_ndf_density_over(ndf, lobe_stretch_facet(s, h), two_sigma);
+	const lobe_real x = h2 * d.inv;
+	return s.norm * x * x * (LOBE_R(0.5) * two_sigma) * d.factor;
+}
+
+/* G2/G1(wo) */
+LOBE_FN lobe_real lobe_reflection_weight(lobe_uint ndf, lobe_stretch s, lobe_real z_o, lobe_real t_o, lobe_vec3 wi)
+{
+	return LOBE_R(0.5) * (z_o + t_o) * lobe_smith_g2_over_cos(z_o, t_o, wi.z, lobe_reflection_t(ndf, s, wi));
+}
+
 /* f |cos theta_i|/F [1/sr], and |H|^2 for Fresnel. ok: else the lobe is 0. */
 typedef struct {
 	lobe_real value, h2;
 	int ok;
 } lobe_reflection_eval;
 
+/* As the density of a sample times its weight, of which pdf and sample compute the same. */
 LOBE_FN lobe_reflection_eval lobe_reflection_eval_at(lobe_uint ndf, lobe_stretch s, lobe_real params, lobe_vec3 wo,
 						     lobe_vec3 wi)
 {
 	const lobe_vec3 h = lobe_vec3_add(wo, wi);
-	const lobe_real g =
-		lobe_smith_g2_over_cos(wo.z, lobe_reflection_t(ndf, s, wo), wi.z, lobe_reflection_t(ndf, s, wi));
+	const lobe_real t_o = lobe_reflection_t(ndf, s, wo);
 	lobe_reflection_eval r;
 	r.h2 = lobe_dot(h, h);
-	r.value = lobe_reflection_quarter_d(ndf, s, h, r.h2) * g;
+	r.value = lobe_reflection_density(ndf, s, h, r.h2, wo.z + t_o) * lobe_reflection_weight(ndf, s, wo.z, t_o, wi);
 	r.ok = lobe_reflection_ok(params, wo, wi, r.value);
 	return r;
 }
@@ -60,9 +66,8 @@ LOBE_FN lobe_reflection_eval lobe_reflection_eval_at(lobe_uint ndf, lobe_stretch
 LOBE_FN lobe_real lobe_reflection_pdf(lobe_uint ndf, lobe_stretch s, lobe_real params, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_vec3 h = lobe_vec3_add(wo, wi);
-	const lobe_real quarter_d = lobe_reflection_quarter_d(ndf, s, h, lobe_dot(h, h));
 	const lobe_real two_sigma = wo.z + lobe_reflection_t(ndf, s, wo);
-	const lobe_real pdf = (quarter_d + quarter_d) / two_sigma;
+	const lobe_real pdf = lobe_reflection_density(ndf, s, h, lobe_dot(h, h), two_sigma);
 	const int ok = lobe_reflection_ok(params, wo, wi, pdf);
 	return ok ? pdf : LOBE_R(0.0);
 }
@@ -85,10 +90,7 @@ LOBE_FN lobe_reflection_sample lobe_reflection_sample_at(lobe_uint ndf, lobe_str
 	r.pdf = lobe_reflection_pdf(ndf, s, params, wo, r.wi);
 	const lobe_vec3 h = lobe_vec3_add(wo, r.wi);
 	r.h2 = lobe_dot(h, h);
-	const lobe_real two_sigma = wo.z + t_o;
-	const lobe_real g2_over_g1 =
-		LOBE_R(0.5) * two_sigma * lobe_smith_g2_over_cos(wo.z, t_o, r.wi.z, lobe_reflection_t(ndf, s, r.wi));
-	r.weight = lobe_finite_or_zero(g2_over_g1);
+	r.weight = lobe_finite_or_zero(lobe_reflection_weight(ndf, s, wo.z, t_o, r.wi));
 	return r;
 }
 
