@@ -84,8 +84,8 @@ static const field fields_iridescent_dielectric[] = {
 		REAL(lobe, map.iyx, -INVERSE, INVERSE), REAL(lobe, map.iyy, -INVERSE, INVERSE),                        \
 		REAL(lobe, map.norm, 3e-5, 1e10)
 #define DISTRIBUTION(lobe, member)                                                                                     \
-	UINT(lobe, member.ndf, LOBE_NDF_TABULATED), REAL(lobe, member.exponent, -(double)FLT_MAX, (double)FLT_MAX),                    \
-		REAL(lobe, member.width, 0, 1000), REAL(lobe, member.norm, 0, (double)FLT_MAX),                                \
+	UINT(lobe, member.ndf, LOBE_NDF_TABULATED), REAL(lobe, member.exponent, -(double)FLT_MAX, (double)FLT_MAX),    \
+		REAL(lobe, member.width, 0, 1000), REAL(lobe, member.norm, 0, (double)FLT_MAX),                        \
 		UINT(lobe, member.table.low, UINT32_MAX), UINT(lobe, member.table.high, UINT32_MAX)
 #define MICROSURFACE(lobe)                                                                                             \
 	DISTRIBUTION(lobe, surface.distribution), LINEAR(lobe, surface.map),                                           \
