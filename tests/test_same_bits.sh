@@ -1,6 +1,7 @@
 #!/bin/sh
-# The library built by gcc and by clang, at -O0 and -O2 with row loops at -O0 and -O3, gives the same bits; so does each
-# instruction set of each build. (The default build is one of them, and is not made again.)
+# The library built by gcc and by clang gives the same bits: at -O2 with row loops at -O3, for each instruction set, and at
+# -O1, where loops stay scalar, for the baseline. (The default build is one of them, and is not made again.)
+# LOBE_TEST_LONG: at -O0 too, for each instruction set, which takes ten minutes.
 # (Threads and OpenCL devices are compared within one build by test_equivalence.c.)
 cd "$(dirname "$0")/.." || exit 1
 . tests/unit.sh
@@ -36,12 +37,17 @@ compare() {
 	fi
 }
 
-# build COMPILER OPTIMISATION: tool_bits and the whole library by another compiler, apart from build/.
-build() {
-	dir=$out/$1$2
-	rows=-O3
-	[ "$2" != -O0 ] || rows=-O0
-	make -s -j2 B="$dir" CC="$1" CFLAGS="$2" ROW_OPT=$rows "$dir/tests/tool_bits"
+# built COMPILER OPTIMISATION: tool_bits and the whole library by another compiler, apart from build/.
+built() {
+	case $2 in
+	-O2) set -- "$@" ROW_OPT=-O3 ;;
+	-O1) set -- "$@" ROW_OPT=-O1 ISAS=baseline ;;
+	*) set -- "$@" ROW_OPT="$2" ;;
+	esac
+	into=$1$2
+	compiler=$1 optimisation=$2
+	shift 2
+	build "$into" CC="$compiler" CFLAGS="$optimisation" "$@" "$builds/$into/tests/tool_bits"
 }
 
 case $("$CC" --version 2>/dev/null) in
@@ -56,11 +62,13 @@ for compiler in gcc clang; do
 		skip "$compiler" "no $compiler here"
 		continue
 	fi
-	for optimisation in -O2 -O0; do
+	for optimisation in -O2 -O1 ${LOBE_TEST_LONG:+-O0}; do
 		[ "$compiler$optimisation" != "$default-O2" ] || continue
-		check "$compiler $optimisation builds" build $compiler $optimisation
-		for isa in baseline avx2 avx512; do
-			compare "$compiler $optimisation, $isa" env LOBE_ISA=$isa $out/$compiler$optimisation/tests/tool_bits native:1
+		check "$compiler $optimisation builds" built $compiler $optimisation
+		isas=baseline
+		[ $optimisation = -O1 ] || isas="baseline avx2 avx512"
+		for isa in $isas; do
+			compare "$compiler $optimisation, $isa" env LOBE_ISA=$isa $builds/$compiler$optimisation/tests/tool_bits native:1
 		done
 	done
 done

@@ -6,6 +6,23 @@ CC=${CC:-cc}
 warnings="-std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Werror"
 exact="-ffp-contract=off -fno-math-errno -fno-trapping-math"
 
+# Other builds of the library, which scripts share: one makes a build, the others wait and use it. Without flock each makes
+# its own.
+builds=build/tests/builds
+command -v flock >/dev/null || builds=$builds.$me
+
+# build NAME WHAT...: make WHAT with B=$builds/NAME.
+build() {
+	made=$builds/$1
+	shift
+	mkdir -p "$made"
+	if command -v flock >/dev/null; then
+		flock "$made/lock" make -s -j2 B="$made" "$@"
+	else
+		make -s -j2 B="$made" "$@"
+	fi
+}
+
 pass() {
 	tests=$((tests + 1))
 	echo "$me:$1:PASS"
