@@ -9,6 +9,7 @@
 
 #include "light.h"
 #include "lobe/lobe.h"
+#include "lobe/recommend.h"
 #include "report.h"
 
 /* --- lights (strategies_light.c) ---------------------------------------------------------------------------------- */
@@ -35,7 +36,10 @@ typedef struct {
 	int parts;
 	strategies_part part[STRATEGIES_PARTS];
 	const struct light *probe; /* or NULL */
+	lobe_light_shape shape;    /* of a probe: fitted */
 	double solid_angle;
+	int turned;       /* the light's z is not the surface's: */
+	lobe_frame frame; /* the surface, in the light's space */
 } strategies_light;
 
 /* Loads the probes when it is called first, which should be from one thread: LOBE_REPORT_PROBES names files or folders,
@@ -54,6 +58,10 @@ strategies_light strategies_light_at(size_t i, lobe_vec3 wo);
 /* What comes from w (unit), and the density with which strategies_draw draws it. */
 lobe_rgb strategies_radiance(const strategies_light *light, lobe_vec3 w, float *pdf);
 struct light_sample strategies_draw(const strategies_light *light, float u1, float u2);
+
+/* strategies_shape.c: the light as lobe_recommend_strategy is told of it; that fitted to a probe. */
+lobe_light_shape strategies_shape(const strategies_light *light);
+lobe_light_shape strategies_fit(const struct light *light);
 
 /* --- cases and techniques (strategies_case.c) --------------------------------------------------------------------- */
 
@@ -84,6 +92,9 @@ typedef struct {
 strategies_case strategies_case_make(int material, double alpha, double cosine, size_t light);
 lobe_microfacet_conductor strategies_lobe(int material, float alpha, lobe_uint strategy);
 
+/* The distribution's part of a material: what time depends on. */
+int strategies_ndf(int material);
+
 /* One estimate of the luminance. u for a direction from the lobe, v for one from the light. */
 float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3]);
 
@@ -106,10 +117,20 @@ typedef struct {
  * runs times. runs at most 16. */
 strategies_moments strategies_moments_of(const strategies_case *c, uint32_t n, uint32_t runs, uint32_t seed);
 
+/* The mean alone, by n points of POWER, runs times, and its standard deviation. */
+double strategies_reference(const strategies_case *c, uint32_t n, uint32_t runs, uint32_t seed, double *error);
+
+/* The same by adaptive quadrature of the textbook's formula in double, for analytic lights; 0 for probes. */
+double strategies_quadrature(const strategies_case *c, double *error);
+
 /* --- grids and studies -------------------------------------------------------------------------------------------- */
 
 size_t strategies_alphas(int quick);
 double strategies_alpha(int quick, size_t i);
+/* Light i of those that a material is seen under: all, or for Beckmann some. */
+size_t strategies_lights_of(int quick, int material);
+size_t strategies_light_of(int quick, int material, size_t i);
+
 size_t strategies_cosines(int quick);
 double strategies_cosine(int quick, size_t i);
 

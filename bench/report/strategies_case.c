@@ -5,9 +5,20 @@
 #include "strategies.h"
 
 static const char *const names[STRATEGIES_TECHNIQUES] = {
-	"visible (default)", "uniform",     "cosine",   "plain NDF",  "slopes 2014", "ellipsoid 2018",
-	"cap 2023",          "bounded cap", "V-cavity", "hemisphere", "light",       "balance",
-	"power",             "balance, bounded",
+	"visible (default)",
+	"uniform",
+	"cosine",
+	"plain NDF",
+	"slopes 2014",
+	"ellipsoid 2018",
+	"cap 2023",
+	"bounded cap",
+	"V-cavity",
+	"hemisphere",
+	"light",
+	"balance",
+	"power",
+	"balance + bounded cap",
 };
 
 const char *strategies_name(int technique) { return names[technique]; }
@@ -17,6 +28,8 @@ const char *strategies_material_name(int material)
 	static const char *const materials[STRATEGIES_MATERIALS] = {"GGX", "GGX 4:1", "Beckmann"};
 	return materials[material];
 }
+
+int strategies_ndf(int material) { return material == STRATEGIES_BECKMANN; }
 
 /* --- grids -------------------------------------------------------------------------------------------------------- */
 
@@ -42,7 +55,8 @@ lobe_microfacet_conductor strategies_lobe(int material, float alpha, lobe_uint s
 	const lobe_microsurface s =
 		lobe_microsurface_make(lobe_distribution_make(ndf), lobe_linear_stretch(alpha, across));
 	return lobe_microfacet_conductor_make(
-		s, lobe_fresnel_model_conductor(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)), strategy);
+		s, lobe_fresnel_model_conductor(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)),
+		strategy);
 }
 
 lobe_rough_conductor strategies_production(int material, float alpha)
@@ -74,7 +88,8 @@ static lobe_rgb times(lobe_rgb a, lobe_rgb b) { return lobe_rgb_make(a.r * b.r, 
 
 static float from_lobe(const strategies_case *c, lobe_uint strategy, const float u[3])
 {
-	const lobe_sample s = lobe_microfacet_conductor_sample(c->lobe[strategy], c->wo, lobe_vec3_make(u[0], u[1], u[2]));
+	const lobe_sample s =
+		lobe_microfacet_conductor_sample(c->lobe[strategy], c->wo, lobe_vec3_make(u[0], u[1], u[2]));
 	float pdf;
 	if (!s.event)
 		return 0.0f;

@@ -17,6 +17,7 @@
 static struct light probes[STRATEGIES_PROBES];
 static char probe_names[STRATEGIES_PROBES][48];
 static double probe_solid_angle[STRATEGIES_PROBES];
+static lobe_light_shape probe_shape[STRATEGIES_PROBES];
 static size_t probe_count;
 static char said[1024], settings[1024];
 static int loaded;
@@ -29,20 +30,38 @@ typedef struct {
 	strategies_part part[STRATEGIES_PARTS];
 } recipe;
 
-#define CONE(place, share, degrees) {STRATEGIES_CONE, place, share, degrees, 0.0f, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}
-#define SKY(share, a, b)            {STRATEGIES_SKY, STRATEGIES_FIXED, share, a, b, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}
-#define GLOW(place, power)          {STRATEGIES_GLOW, place, 1.0f, power, 0.0f, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}
-#define NO_PART                     SKY(0.0f, 1.0f, 0.0f)
+#define CONE(place, share, degrees)                                                                                    \
+	{                                                                                                              \
+		STRATEGIES_CONE, place, share, degrees, 0.0f,                                                          \
+		{                                                                                                      \
+			{0, 0, 0}, {0, 0, 0}, { 0, 0, 0 }                                                              \
+		}                                                                                                      \
+	}
+#define SKY(share, a, b)                                                                                               \
+	{                                                                                                              \
+		STRATEGIES_SKY, STRATEGIES_FIXED, share, a, b,                                                         \
+		{                                                                                                      \
+			{0, 0, 0}, {0, 0, 0}, { 0, 0, 0 }                                                              \
+		}                                                                                                      \
+	}
+#define GLOW(place, power)                                                                                             \
+	{                                                                                                              \
+		STRATEGIES_GLOW, place, 1.0f, power, 0.0f,                                                             \
+		{                                                                                                      \
+			{0, 0, 0}, {0, 0, 0}, { 0, 0, 0 }                                                              \
+		}                                                                                                      \
+	}
+#define NO_PART SKY(0.0f, 1.0f, 0.0f)
 
 /* Of a CONE a is the radius in degrees here. The last but three is what most pictures are lit by: a sun that sends four
  * times as much as the sky, which is three times as bright at the horizon as overhead. */
 static const recipe recipes[] = {
-	{"sun, in the highlight", 1, {CONE(STRATEGIES_HIGHLIGHT, 1.0f, 0.265f), NO_PART}},
-	{"sun, aside", 1, {CONE(STRATEGIES_ASIDE, 1.0f, 0.265f), NO_PART}},
-	{"disk of 5 deg, in the highlight", 1, {CONE(STRATEGIES_HIGHLIGHT, 1.0f, 5.0f), NO_PART}},
-	{"disk of 5 deg, aside", 1, {CONE(STRATEGIES_ASIDE, 1.0f, 5.0f), NO_PART}},
-	{"disk of 20 deg, in the highlight", 1, {CONE(STRATEGIES_HIGHLIGHT, 1.0f, 20.0f), NO_PART}},
-	{"disk of 20 deg, aside", 1, {CONE(STRATEGIES_ASIDE, 1.0f, 20.0f), NO_PART}},
+	{"sun in the highlight", 1, {CONE(STRATEGIES_HIGHLIGHT, 1.0f, 0.265f), NO_PART}},
+	{"sun aside", 1, {CONE(STRATEGIES_ASIDE, 1.0f, 0.265f), NO_PART}},
+	{"disk of 5 deg in the highlight", 1, {CONE(STRATEGIES_HIGHLIGHT, 1.0f, 5.0f), NO_PART}},
+	{"disk of 5 deg aside", 1, {CONE(STRATEGIES_ASIDE, 1.0f, 5.0f), NO_PART}},
+	{"disk of 20 deg in the highlight", 1, {CONE(STRATEGIES_HIGHLIGHT, 1.0f, 20.0f), NO_PART}},
+	{"disk of 20 deg aside", 1, {CONE(STRATEGIES_ASIDE, 1.0f, 20.0f), NO_PART}},
 	{"clear sky with sun", 2, {CONE(STRATEGIES_ASIDE, 0.8f, 0.265f), SKY(0.2f, 3.0f, -2.0f)}},
 	{"hazy glow", 1, {GLOW(STRATEGIES_ASIDE, 15.0f), NO_PART}},
 	{"gradient sky", 1, {SKY(1.0f, 3.0f, -2.0f), NO_PART}},
@@ -131,13 +150,14 @@ static void add_probe(const char *path)
 		for (size_t y = 0; y < h; y++)
 			for (size_t x = 0; x < w; x++) {
 				const double l = (double)strategies_luminance(light->texel[y * w + x].radiance);
-				const double area = 2.0 * PI / (double)w *
-						    (double)(light->cos_theta[y] - light->cos_theta[y + 1]);
+				const double area =
+					2.0 * PI / (double)w * (double)(light->cos_theta[y] - light->cos_theta[y + 1]);
 				sum += l * area;
 				squares += l * l * area;
 			}
 		if (sum > 0.0) {
 			probe_solid_angle[probe_count] = sum * sum / squares;
+			probe_shape[probe_count] = strategies_fit(light);
 			snprintf(probe_names[probe_count], sizeof *probe_names, "%s", slash ? slash + 1 : path);
 			snprintf(settings + strlen(settings), sizeof settings - strlen(settings), "%s %08x;",
 				 probe_names[probe_count], checksum(&image));
@@ -205,6 +225,21 @@ size_t strategies_lights(int quick)
 
 size_t strategies_analytic_lights(void) { return ANALYTIC; }
 
+/* Beckmann's: a disk, the sky with sun, the overcast one, and the first probe. */
+static const size_t few[] = {2, 6, 9, ANALYTIC};
+
+size_t strategies_lights_of(int quick, int material)
+{
+	const size_t all = strategies_lights(quick);
+	return material != STRATEGIES_BECKMANN ? all : all > ANALYTIC ? 4 : 3;
+}
+
+size_t strategies_light_of(int quick, int material, size_t i)
+{
+	(void)quick;
+	return material != STRATEGIES_BECKMANN ? i : few[i];
+}
+
 const char *strategies_probes_said(void) { return said; }
 
 const char *strategies_settings(int quick)
@@ -224,6 +259,7 @@ strategies_light strategies_light_at(size_t index, lobe_vec3 wo)
 		snprintf(light.name, sizeof light.name, "%s", probe_names[i]);
 		light.probe = &probes[i];
 		light.solid_angle = probe_solid_angle[i];
+		light.shape = probe_shape[i];
 		return light;
 	}
 	const recipe *r = &recipes[index];
@@ -238,11 +274,11 @@ strategies_light strategies_light_at(size_t index, lobe_vec3 wo)
 			const double half = sin(0.5 * (double)p->a / 180.0 * PI);
 			p->a = (float)(2.0 * half * half);
 		}
-		p->frame = lobe_frame_from_normal(
-			p->place == STRATEGIES_HIGHLIGHT
-				? lobe_vec3_make(-wo.x, -wo.y, wo.z)
-				: lobe_vec3_make((float)(sin(down) * cos(turn)), (float)(sin(down) * sin(turn)),
-						 (float)cos(down)));
+		p->frame = lobe_frame_from_normal(p->place == STRATEGIES_HIGHLIGHT
+							  ? lobe_vec3_make(-wo.x, -wo.y, wo.z)
+							  : lobe_vec3_make((float)(sin(down) * cos(turn)),
+									   (float)(sin(down) * sin(turn)),
+									   (float)cos(down)));
 		/* The sun's share alone squares to something. */
 		squares += (double)p->share * (double)p->share * concentration(p);
 	}
@@ -250,19 +286,18 @@ strategies_light strategies_light_at(size_t index, lobe_vec3 wo)
 	return light;
 }
 
-lobe_rgb strategies_radiance(const strategies_light *light, lobe_vec3 w, float *pdf)
+lobe_rgb strategies_radiance(const strategies_light *light, lobe_vec3 wi, float *pdf)
 {
+	const lobe_vec3 w = light->turned ? lobe_frame_to_world(light->frame, wi) : wi;
 	if (light->probe)
 		return light_radiance(light->probe, w, pdf);
 	*pdf = parts_pdf(light, w);
 	return lobe_rgb_make(*pdf, *pdf, *pdf);
 }
 
-struct light_sample strategies_draw(const strategies_light *light, float u1, float u2)
+static struct light_sample draw(const strategies_light *light, float u1, float u2)
 {
 	struct light_sample s;
-	if (light->probe)
-		return light_draw(light->probe, u1, u2);
 	const float first = light->part[0].share;
 	const int second = light->parts > 1 && u2 >= first;
 	const float v = light->parts == 1 ? u2 : second ? (u2 - first) / (1.0f - first) : u2 / first;
@@ -272,5 +307,13 @@ struct light_sample strategies_draw(const strategies_light *light, float u1, flo
 	if (light->part[second].kind == STRATEGIES_CONE && !(s.pdf > light->part[second].share))
 		s.pdf = first * lobe_spherical_cap_pdf(light->part[0].a);
 	s.radiance = lobe_rgb_make(s.pdf, s.pdf, s.pdf);
+	return s;
+}
+
+struct light_sample strategies_draw(const strategies_light *light, float u1, float u2)
+{
+	struct light_sample s = light->probe ? light_draw(light->probe, u1, u2) : draw(light, u1, u2);
+	if (light->turned)
+		s.wi = lobe_frame_to_local(light->frame, s.wi);
 	return s;
 }

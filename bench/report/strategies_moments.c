@@ -46,8 +46,8 @@ static void add_point(integrals *s, const strategies_case *c, lobe_vec3 wi, doub
 		return;
 	}
 	const lobe_rgb f = lobe_microfacet_conductor_eval(c->lobe[LOBE_STRATEGY_VISIBLE], c->wo, wi);
-	const double x = (double)strategies_luminance(
-		lobe_rgb_make(f.r * radiance.r, f.g * radiance.g, f.b * radiance.b));
+	const double x =
+		(double)strategies_luminance(lobe_rgb_make(f.r * radiance.r, f.g * radiance.g, f.b * radiance.b));
 	for (int k = 0; k < STRATEGIES_LIGHT; k++)
 		if (same_as(c->material, k) == k)
 			pdf[k] = (double)lobe_microfacet_conductor_pdf(c->lobe[k], c->wo, wi);
@@ -67,7 +67,7 @@ static void add_point(integrals *s, const strategies_case *c, lobe_vec3 wi, doub
 	for (int m = 0; m < MIXED; m++) {
 		const int technique = STRATEGIES_BALANCE + m;
 		const double b = pdf[technique == STRATEGIES_BALANCE_BOUNDED ? LOBE_STRATEGY_BOUNDED_CAP
-									      : LOBE_STRATEGY_VISIBLE];
+									     : LOBE_STRATEGY_VISIBLE];
 		/* Weight of the lobe's direction; the power heuristic by the ratio. */
 		const double r = technique == STRATEGIES_POWER ? (light / b) * (light / b) : light / b;
 		const double of_lobe = b > 0.0 ? 1.0 / (1.0 + r) : 0.0;
@@ -105,18 +105,24 @@ static integrals integrate(const strategies_case *c, uint32_t n, uint32_t run, u
 	return s;
 }
 
-/* Of samples without direction too. */
-static double variance(double second, double mean, double mass, double rejected)
+/* Points follow the density's own facets, so that its integral is known as well as the mean. */
+static int covered(int material, int k)
+{
+	return k == LOBE_STRATEGY_VISIBLE || k == LOBE_STRATEGY_NDF || k == LOBE_STRATEGY_VCAVITY ||
+	       k == STRATEGIES_LIGHT || (material != STRATEGIES_BECKMANN && k > LOBE_STRATEGY_COSINE);
+}
+
+static double variance(double second, double mean, double whole)
 {
 	const double square = mean * mean;
-	return second > 2.0 * square ? second - square : second - 2.0 * square + square * (mass + rejected);
+	return second > 2.0 * square ? second - square : second - 2.0 * square + square * whole;
 }
 
 static void variances(const integrals *s, int material, double out[STRATEGIES_TECHNIQUES])
 {
 	for (int k = 0; k < DENSITIES; k++) {
 		const int d = same_as(material, k);
-		out[k] = variance(s->second[d], s->mean, s->mass[d], s->rejected[d]);
+		out[k] = variance(s->second[d], s->mean, covered(material, d) ? s->mass[d] + s->rejected[d] : 1.0);
 	}
 	for (int m = 0; m < MIXED; m++) {
 		const double b = s->from_lobe[m], l = s->mean - b;
@@ -126,8 +132,8 @@ static void variances(const integrals *s, int material, double out[STRATEGIES_TE
 		out[STRATEGIES_BALANCE + m] =
 			s->both[m] > 2.0 * square
 				? s->both[m] - square
-				: s->both[m] - 2.0 * square + b * b * (s->mass[d] + s->rejected[d]) +
-					  l * l * s->mass[STRATEGIES_LIGHT];
+				: s->both[m] - 2.0 * square + l * l * s->mass[STRATEGIES_LIGHT] +
+					  b * b * (covered(material, d) ? s->mass[d] + s->rejected[d] : 1.0);
 	}
 }
 
