@@ -137,7 +137,7 @@ double strategies_cosine(int quick, size_t i);
 extern const report_study strategies_map_study, strategies_time_study, strategies_batch_study, strategies_curves_study,
 	strategies_reference_study, strategies_pictures_study;
 
-/* strategies_picture.c: the sheets, from the rows. */
+/* strategies_sheet.c: the sheets of pictures, from the rows. */
 void strategies_write_pictures(report_page *page, const report_table *reference, const report_table *pictures);
 
 #endif
