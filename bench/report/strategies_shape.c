@@ -53,26 +53,45 @@ static void gather(const struct light *light, sums *s, int rings)
 		}
 }
 
-static double cost_of(const sums *s, lobe_light_shape shape)
+/* Densities of the rings: of a disk, and of a glow. */
+enum { SIZES = 33, SHARES = 20 };
+typedef struct {
+	double of[SIZES][RINGS];
+} profiles;
+
+static float size_of(int i) { return (float)(2e-5 * pow(10.0, i / 6.0)); }
+
+static void tabulate(profiles *disk, profiles *glow)
 {
-	const double share = (double)shape.share, area = (double)shape.solid_angle, n = (double)shape.exponent;
-	double cost = 0.0;
-	for (int i = 0; i < RINGS; i++) {
-		const double h = ring_height(i + 0.5);
-		const double disk = h < area / (2.0 * PI) ? 1.0 / area : 0.0;
-		const double around = n < 0.0 ? disk : (n + 1.0) / (4.0 * PI) * pow(fmax(1.0 - 0.5 * h, 0.0), n);
-		if (s->squares[i] > 0.0)
-			cost += s->squares[i] / (share * around + (1.0 - share) / (2.0 * PI));
+	for (int i = 0; i < SIZES; i++) {
+		const double area = (double)size_of(i);
+		const double n =
+			(double)lobe_light_shape_glow(lobe_vec3_make(0.0f, 0.0f, 1.0f), size_of(i), 1.0f).exponent;
+		for (int k = 0; k < RINGS; k++) {
+			const double h = ring_height(k + 0.5);
+			disk->of[i][k] = h < area / (2.0 * PI) ? 1.0 / area : 0.0;
+			glow->of[i][k] = (n + 1.0) / (4.0 * PI) * pow(fmax(1.0 - 0.5 * h, 0.0), n);
+		}
 	}
+}
+
+static double cost_of(const sums *s, const double *disk, double disk_share, const double *glow, double glow_share)
+{
+	double cost = 0.0;
+	for (int i = 0; i < RINGS; i++)
+		cost += s->squares[i] /
+			(disk_share * disk[i] + glow_share * glow[i] + (1.0 - disk_share - glow_share) / (2.0 * PI));
 	return cost;
 }
 
 lobe_light_shape strategies_fit(const struct light *light)
 {
+	static profiles disk, glow;
 	lobe_light_shape best = lobe_light_shape_sky(0.0f);
 	double least = HUGE_VAL;
 	sums s;
 	memset(&s, 0, sizeof s);
+	tabulate(&disk, &glow);
 	gather(light, &s, 0);
 	for (int which = 0; which < 2; which++) {
 		const double *d = s.direction[which], length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -83,19 +102,19 @@ lobe_light_shape strategies_fit(const struct light *light)
 		memset(s.squares, 0, sizeof s.squares);
 		gather(light, &s, 1);
 		const lobe_vec3 axis = lobe_vec3_make((float)s.axis[0], (float)s.axis[1], (float)s.axis[2]);
-		for (int i = 0; i < 2 * 33; i++) {
-			const float area = (float)(2e-5 * pow(10.0, (i / 2) / 6.0));
-			for (int k = 1; k < 20; k++) {
-				const lobe_light_shape shape =
-					i % 2 ? lobe_light_shape_glow(axis, area, (float)k / 20.0f)
-					      : lobe_light_shape_disk(axis, area, (float)k / 20.0f);
-				const double cost = cost_of(&s, shape);
-				if (cost < least) {
-					least = cost;
-					best = shape;
-				}
-			}
-		}
+		for (int i = 0; i < SIZES; i += 2)
+			for (int k = i; k < SIZES; k += 2)
+				for (int a = 0; a < SHARES; a++)
+					for (int b = 0; a + b < SHARES; b++) {
+						const double x = (double)a / SHARES, y = (double)b / SHARES;
+						const double cost = cost_of(&s, disk.of[i], x, glow.of[k], y);
+						if (cost >= least)
+							continue;
+						least = cost;
+						best = lobe_light_shape_with_glow(
+							lobe_light_shape_disk(axis, size_of(i), (float)x), size_of(k),
+							(float)y);
+					}
 	}
 	return best;
 }

@@ -5,8 +5,8 @@
  *	lobe_recommendation r = lobe_recommend_strategy(surface, wo, sun, lobe_recommend_cost_samples());
  *	p = lobe_microfacet_conductor_make(surface, fresnel, r.strategy);	and r.from says what to draw from
  *
- * Of a reflecting lobe. The light is described by a disk or a glow around a direction (in the shading frame, unit), its
- * solid angle, and how much of all light comes from there; the rest is a sky over the surface.
+ * Of a reflecting lobe. The light is described by a disk and a glow around one direction (in the shading frame, unit),
+ * their solid angles, and how much of all light comes from each; the rest is a sky over the surface.
  * The variance that each technique would have is then an integral, and that is what is compared: integrated with
  * LOBE_RECOMMEND_POINTS points of a lattice from the lobe and as many from the light, all techniques on the same ones
  * (power heuristic between the two). A technique's efficiency is 1/(variance cost). Nearly equal ones go to the first of
@@ -27,42 +27,51 @@ enum { LOBE_RECOMMEND_POINTS = 512 };
  * 1997). Stable across versions. */
 enum { LOBE_SAMPLE_LOBE = 0, LOBE_SAMPLE_LIGHT = 1, LOBE_SAMPLE_BOTH_BALANCE = 2, LOBE_SAMPLE_BOTH_POWER = 3 };
 
-/* share, in [0, 1]: of the light that comes from around the axis. solid_angle [sr], in (0, 2 pi]: of a uniform light that
- * is as concentrated, (integral of L)^2 over integral of L^2. exponent: negative for a disk with a sharp edge, else the n
- * of a glow that falls off like ((1 + cos)/2)^n. slope, >= -1: the rest is a sky of radiance 1 + slope cos(angle to the
- * surface's normal): 2 for the CIE's overcast one, -2/3 for one three times as bright at the horizon as overhead. */
+/* disk, glow, in [0, 1], at most 1 together: their shares of the light. solid_angle [sr], in (0, 2 pi]: of the disk, which
+ * has a sharp edge. exponent, >= 0: the n of a glow that falls off like ((1 + cos)/2)^n. slope, >= -1: the rest is a sky of
+ * radiance 1 + slope cos(angle to the surface's normal): 2 for the CIE's overcast one, -2/3 for one three times as bright
+ * at the horizon as overhead. */
 typedef struct {
 	lobe_vec3 axis;
-	lobe_real share, solid_angle, exponent, slope;
+	lobe_real disk, solid_angle, glow, exponent, slope;
 } lobe_light_shape;
 
-/* A sun, a lamp: the rest evenly from above. */
-LOBE_FN lobe_light_shape lobe_light_shape_disk(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
+/* A sky alone; 0: the same from everywhere above. */
+LOBE_FN lobe_light_shape lobe_light_shape_sky(lobe_real slope)
 {
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	lobe_light_shape s;
-	s.axis = axis;
-	s.share = share;
-	s.solid_angle = solid_angle;
-	s.exponent = -LOBE_R(1.0);
-	s.slope = LOBE_R(0.0);
+	s.axis = lobe_vec3_make(zero, zero, one);
+	s.disk = s.glow = s.exponent = zero;
+	s.solid_angle = one;
+	s.slope = slope;
 	return s;
 }
 
-/* A window, a veiled sun. With q = 4 pi/solid angle = (n + 1)^2/(2n + 1). */
-LOBE_FN lobe_light_shape lobe_light_shape_glow(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
+/* A sun or a lamp; the rest comes evenly from above. */
+LOBE_FN lobe_light_shape lobe_light_shape_disk(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
+{
+	lobe_light_shape s = lobe_light_shape_sky(LOBE_R(0.0));
+	s.axis = axis;
+	s.disk = share;
+	s.solid_angle = solid_angle;
+	return s;
+}
+
+/* The same with a glow around it: a veil, a window. solid_angle [sr]: of a uniform light as concentrated, (integral of
+ * L)^2 over integral of L^2, which is 4 pi (2 n + 1)/(n + 1)^2. */
+LOBE_FN lobe_light_shape lobe_light_shape_with_glow(lobe_light_shape s, lobe_real solid_angle, lobe_real share)
 {
 	const lobe_real q = lobe_max(LOBE_R(2.0) * LOBE_2PI / solid_angle, LOBE_R(1.0));
-	lobe_light_shape s = lobe_light_shape_disk(axis, solid_angle, share);
+	s.glow = share;
 	s.exponent = q - LOBE_R(1.0) + lobe_sqrt(q * (q - LOBE_R(1.0)));
 	return s;
 }
 
-LOBE_FN lobe_light_shape lobe_light_shape_sky(lobe_real slope)
+LOBE_FN lobe_light_shape lobe_light_shape_glow(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
 {
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	lobe_light_shape s = lobe_light_shape_disk(lobe_vec3_make(zero, zero, one), one, zero);
-	s.slope = slope;
-	return s;
+	const lobe_light_shape s = lobe_light_shape_disk(axis, LOBE_R(1.0), LOBE_R(0.0));
+	return lobe_light_shape_with_glow(s, solid_angle, share);
 }
 
 /* What a sample costs, in any unit: from the lobe by each strategy, from the light, and what weighting adds to the two. */
@@ -136,27 +145,27 @@ LOBE_FN lobe_real lobe_light_shape_density(lobe_light_shape l, lobe_vec3 w)
 	/* |w - axis|^2 = 2 (1 - cos) = solid angle/pi at the edge; |w + axis|^2 = 2 (1 + cos) */
 	const lobe_vec3 chord = lobe_vec3_fma(-one, l.axis, w), other = lobe_vec3_add(l.axis, w);
 	const int inside = lobe_dot(chord, chord) <= l.solid_angle * LOBE_INV_PI;
-	const lobe_real n = lobe_max(l.exponent, zero);
+	const lobe_real n = l.exponent;
 	const lobe_real glow =
 		(n + one) * (LOBE_R(0.25) * LOBE_INV_PI) * lobe_pow(LOBE_R(0.25) * lobe_dot(other, other), n);
-	const lobe_real disk = inside ? one / l.solid_angle : zero;
 	const lobe_real sky = lobe_fma(l.slope, w.z, one) / (LOBE_2PI * lobe_fma(LOBE_R(0.5), l.slope, one));
-	return lobe_fma(l.share, l.exponent < zero ? disk : glow, w.z > zero ? (one - l.share) * sky : zero);
+	const lobe_real rest = w.z > zero ? (one - l.disk - l.glow) * sky : zero;
+	return lobe_fma(l.glow, glow, lobe_fma(l.disk, inside ? one / l.solid_angle : zero, rest));
 }
 
 LOBE_FN lobe_vec3 lobe_light_shape_draw(lobe_light_shape l, lobe_vec3 u)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
-	const lobe_real n = lobe_max(l.exponent, zero);
 	/* 1 - cos of the point at fraction u.y, and z from z + slope z^2/2 = c. */
 	const lobe_real disk = u.y * l.solid_angle / LOBE_2PI;
-	const lobe_real glow = two * (one - lobe_pow(one - u.y, one / (n + one)));
+	const lobe_real glow = two * (one - lobe_pow(one - u.y, one / (l.exponent + one)));
 	const lobe_real c = u.y * lobe_fma(LOBE_R(0.5), l.slope, one);
 	const lobe_real z = lobe_min(two * c / (one + lobe_sqrt(lobe_max(lobe_fma(two * l.slope, c, one), zero))), one);
-	const lobe_real height = u.z < l.share ? (l.exponent < zero ? disk : glow) : one - z;
-	/* lobe_spherical_cap at the rim of a cap of this height. */
+	const int around = u.z < l.disk + l.glow;
+	const lobe_real height = u.z < l.disk ? disk : (around ? glow : one - z);
+	/* The rim of a cap of this height. */
 	const lobe_vec3 w = lobe_spherical_cap(lobe_vec2_make(u.x, one), height);
-	return u.z < l.share ? lobe_frame_to_world(lobe_frame_from_normal(l.axis), w) : w;
+	return around ? lobe_frame_to_world(lobe_frame_from_normal(l.axis), w) : w;
 }
 
 /* Point i of a lattice that fills the cube evenly (Roberts 2018, "The unreasonable effectiveness of quasirandom
