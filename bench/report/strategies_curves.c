@@ -42,49 +42,59 @@ static void point(int spread, uint32_t technique, uint32_t repetition, uint32_t 
 	}
 }
 
-static int run(int quick, size_t unit, report_rows *rows)
+typedef struct {
+	double truth, error, quadrature, quadrature_error;
+} references;
+
+static void run_technique(int quick, const strategies_case *c, int technique, double variance, const references *r,
+			  report_rows *rows)
 {
-	const telling *t = &cases[unit / STRATEGIES_TECHNIQUES];
-	const int technique = (int)(unit % STRATEGIES_TECHNIQUES);
-	const size_t lights = strategies_lights(quick), analytic = strategies_analytic_lights();
-	const size_t light = t->light >= 0 ? (size_t)t->light : lights > analytic ? lights - 1 : 6;
-	const strategies_case c = strategies_case_make(t->material, t->alpha, t->cosine, light);
 	const uint32_t repetitions = quick ? 96 : 512;
-	double error, quadrature_error;
-	const double truth = strategies_reference(&c, quick ? 1u << 14 : 1u << 17, 16, 3, &error);
-	const double quadrature = technique == 0 ? strategies_quadrature(&c, &quadrature_error) : 0.0;
-	const strategies_moments m = strategies_moments_of(&c, quick ? 4096 : 16384, 8, 2);
 	for (int spread = 0; spread < 2; spread++) {
 		double sum[COUNTS] = {0}, square[COUNTS] = {0}, fourth[COUNTS] = {0};
-		for (uint32_t r = 0; r < repetitions; r++) {
+		for (uint32_t k = 0; k < repetitions; k++) {
 			double total = 0.0;
 			uint32_t next = 1;
-			int k = 0;
+			int at = 0;
 			for (uint32_t i = 0; i < LAST; i++) {
 				float u[3], v[3];
-				point(spread, (uint32_t)technique, r, i, u, v);
-				total += (double)strategies_estimate(&c, technique, u, v);
+				point(spread, (uint32_t)technique, k, i, u, v);
+				total += (double)strategies_estimate(c, technique, u, v);
 				if (i + 1 < next)
 					continue;
-				const double off = total / next - truth;
-				sum[k] += off;
-				square[k] += off * off;
-				fourth[k] += off * off * off * off;
+				const double off = total / next - r->truth;
+				sum[at] += off;
+				square[at] += off * off;
+				fourth[at] += off * off * off * off;
 				next *= 4;
-				k++;
+				at++;
 			}
 		}
 		for (int k = 0; k < COUNTS; k++) {
-			const double n = repetitions, mse = square[k] / n,
-				     mse_error = sqrt(fmax(fourth[k] / n - mse * mse, 0.0) / n);
+			const double n = repetitions, mse = square[k] / n;
+			const double mse_error = sqrt(fmax(fourth[k] / n - mse * mse, 0.0) / n);
 			report_row(rows, "%s,%s,%g,%g,%s,%s,%d,%u,%.6g,%.3g,%.4g,%.6g,%.8g,%.2g,%.8g,%.2g",
-				   strategies_material_name(t->material), c.light.name, t->alpha, t->cosine,
+				   strategies_material_name(c->material), c->light.name, c->alpha, c->cosine,
 				   strategies_name(technique), spread ? "sobol" : "random", 1 << 2 * k, repetitions,
-				   sqrt(mse) / truth, 0.5 * mse_error / sqrt(mse) / truth, sum[k] / n / truth,
-				   sqrt(m.variance[technique] / (1 << 2 * k)) / truth, truth, error, quadrature,
-				   technique == 0 ? quadrature_error : 0.0);
+				   sqrt(mse) / r->truth, 0.5 * mse_error / sqrt(mse) / r->truth, sum[k] / n / r->truth,
+				   sqrt(variance / (1 << 2 * k)) / r->truth, r->truth, r->error, r->quadrature,
+				   r->quadrature_error);
 		}
 	}
+}
+
+static int run(int quick, size_t unit, report_rows *rows)
+{
+	const telling *t = &cases[unit];
+	const size_t lights = strategies_lights(quick), analytic = strategies_analytic_lights();
+	const size_t light = t->light >= 0 ? (size_t)t->light : lights > analytic ? lights - 1 : 6;
+	const strategies_case c = strategies_case_make(t->material, t->alpha, t->cosine, light);
+	const strategies_moments m = strategies_moments_of(&c, quick ? 4096 : 16384, 8, 2);
+	references r;
+	r.truth = strategies_reference(&c, quick ? 1u << 17 : 1u << 19, 16, 3, &r.error);
+	r.quadrature = strategies_quadrature(&c, &r.quadrature_error);
+	for (int technique = 0; technique < STRATEGIES_TECHNIQUES; technique++)
+		run_technique(quick, &c, technique, m.variance[technique], &r, rows);
 	return 0;
 }
 
