@@ -26,7 +26,7 @@ static const telling cases[] = {
 	{STRATEGIES_BECKMANN, 9, 0.4, 0.3}, {STRATEGIES_BECKMANN, 2, 0.1, 0.7}, {STRATEGIES_GGX, -1, 0.03, 0.7},
 };
 
-static size_t units(int quick) { return (quick ? 4 : sizeof cases / sizeof *cases) * STRATEGIES_TECHNIQUES; }
+static size_t units(int quick) { return quick ? 4 : sizeof cases / sizeof *cases; }
 
 static void point(int spread, uint32_t technique, uint32_t repetition, uint32_t i, float u[3], float v[3])
 {

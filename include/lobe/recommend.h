@@ -263,7 +263,8 @@ LOBE_FN_APART lobe_vec3 lobe_recommend_draw(lobe_microsurface s, lobe_uint k, lo
 	const lobe_vec3 m = lobe_linear_normal(s.map, lobe_strategy_sample(k, s, o, wo, 0, u).m);
 	const lobe_real twice = LOBE_R(2.0) * lobe_dot(wo, m) / lobe_dot(m, m);
 	const lobe_vec3 wi = lobe_vec3_fma(twice, m, lobe_vec3_scale(wo, -one));
-	return (wi.z > zero) & (lobe_dot(wo, m) > zero) ? wi : lobe_vec3_make(zero, zero, zero);
+	const int seen = (wi.z > zero) & (lobe_dot(wo, m) > zero);
+	return seen ? wi : lobe_vec3_make(zero, zero, zero);
 }
 
 /* Both passes; the second takes what the first found. */
