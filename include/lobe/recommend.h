@@ -203,7 +203,7 @@ LOBE_FN lobe_real lobe_recommend_weight(lobe_real own, lobe_real other)
 {
 	const lobe_real ratio = other / own;
 	const lobe_real w = LOBE_R(1.0) / (own * lobe_fma(ratio, ratio, LOBE_R(1.0)));
-	return own > LOBE_R(0.0) ? w * (LOBE_R(1.0) / LOBE_RECOMMEND_POINTS) : LOBE_R(0.0);
+	return own > LOBE_R(0.0) ? w * (LOBE_R(1.0) / (lobe_real)LOBE_RECOMMEND_POINTS) : LOBE_R(0.0);
 }
 
 /* The strategy that technique t takes the lobe's direction from. */
@@ -271,7 +271,7 @@ LOBE_FN_APART lobe_vec3 lobe_recommend_draw(lobe_microsurface s, lobe_uint k, lo
 LOBE_FN_APART lobe_recommend_sums lobe_recommend_integrate(lobe_microsurface surface, lobe_vec3 wo,
 							   lobe_light_shape light)
 {
-	const lobe_real zero = LOBE_R(0.0), part = LOBE_R(1.0) / LOBE_RECOMMEND_POINTS;
+	const lobe_real zero = LOBE_R(0.0), part = LOBE_R(1.0) / (lobe_real)LOBE_RECOMMEND_POINTS;
 	lobe_recommend_sums s;
 	s.mean = zero;
 	for (int t = 0; t < LOBE_RECOMMEND_TECHNIQUES; t++)
