@@ -131,12 +131,12 @@ int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure)
 	return rank_winner(m, c, STRATEGIES_TECHNIQUES, measure) < STRATEGIES_LOBE;
 }
 
-rank_share rank_share_of(const rank_map *m, int k, int measure)
+rank_share rank_share_of(const rank_map *m, int k, int measure, int ndf)
 {
 	rank_share s = {0, 0, 0, 0};
 	for (size_t i = 0; i < m->count; i++) {
 		const rank_cell *c = &m->cell[i];
-		if (rank_dark(c))
+		if (rank_dark(c) || (ndf >= 0 && strategies_ndf(c->material) != ndf))
 			continue;
 		const int good = rank_unbeaten(m, c, k, measure), turn = rank_lobes_turn(m, c, measure);
 		s.cells++;

@@ -22,9 +22,10 @@ typedef struct {
 	int quick;
 	size_t count;
 	rank_cell *cell;
-	/* Over the default's, by distribution and light; half its 95 % interval, relative. */
+	/* Over the default's, by distribution and light; half the range given with it, relative. */
 	double time[2][LIGHTS_MAX][STRATEGIES_TECHNIQUES], noise[2][LIGHTS_MAX][STRATEGIES_TECHNIQUES];
 } rank_map;
+
 /* From the studies' rows. */
 void rank_read(rank_map *m, int quick, const report_table *rows, const report_table *times);
 
@@ -32,7 +33,7 @@ typedef struct {
 	double all, turn, cells, turns; /* shares in percent, and of how many */
 } rank_share;
 
-/* Loss over the best's in every cell that is not dark, by analytic lights and by probes: NAN where it is of the other. */
+/* Loss over the best's in every cell that is not dark, by analytic lights and by probes. */
 typedef struct {
 	double *of[2]; /* [cells] */
 	size_t n[2];
@@ -40,10 +41,9 @@ typedef struct {
 	size_t defaults;
 } rank_regrets;
 
+/* Of their names. */
 int rank_technique(const char *name);
-
 size_t rank_light(const rank_map *m, const char *name);
-
 int rank_material(const char *name);
 
 /* What is minimal for the best. */
@@ -61,7 +61,8 @@ int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure);
 /* Where the lobe is what to sample: no technique that asks the light is clearly better. */
 int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure);
 
-rank_share rank_share_of(const rank_map *m, int k, int measure);
+/* Of cells where k is unbeaten. ndf: as strategies_ndf, or -1 for all. */
+rank_share rank_share_of(const rank_map *m, int k, int measure, int ndf);
 
 double rank_quantile(double *values, size_t n, double q);
 

@@ -1,7 +1,7 @@
 /* strategies_time.c - what a sample costs: one after another on one thread, and in batches on each device.
  *
- * All techniques are timed in rounds, one after another, so that another program on the machine hits all alike; ratios to
- * the default are medians of ratios within a round. The time of an estimate has everything but the random numbers, which
+ * All techniques are timed in rounds, one after another, and the least of the rounds is a technique's time, for other
+ * programs on the machine only add to it. The range given with it takes the lower quartile in the place of the least. The time of an estimate has everything but the random numbers, which
  * are read from a small table: sample, light, product. */
 #include <math.h>
 #include <stdio.h>
@@ -66,17 +66,13 @@ static int run(int quick, size_t unit, report_rows *rows)
 			if (k >= 0) /* the first round warms up */
 				r.of[t][k] = ns;
 		}
-	for (int t = TIMED - 1; t >= 0; t--) {
-		double ratio[ROUNDS_MAX];
-		for (int k = 0; k < count; k++)
-			ratio[k] = r.of[t][k] / r.of[LOBE_STRATEGY_VISIBLE][k];
-		const bench_stats q = bench_stats_of(ratio, (size_t)count);
-		double ns[ROUNDS_MAX];
-		for (int k = 0; k < count; k++)
-			ns[k] = r.of[t][k];
-		const bench_stats s = bench_stats_of(ns, (size_t)count);
+	const bench_stats base = bench_stats_of(r.of[LOBE_STRATEGY_VISIBLE], (size_t)count);
+	for (int t = 0; t < TIMED; t++) {
+		const bench_stats q = bench_stats_of(r.of[t], (size_t)count);
+		const double low = t == LOBE_STRATEGY_VISIBLE ? 1.0 : q.min / base.quarter1;
+		const double high = t == LOBE_STRATEGY_VISIBLE ? 1.0 : q.quarter1 / base.min;
 		report_row(rows, "%s,%s,%s,%.2f,%.2f,%.2f,%.4f,%.4f,%.4f", strategies_material_name(material),
-			   c[0].light.name, timed_name(t), s.median, s.low, s.high, q.median, q.low, q.high);
+			   c[0].light.name, timed_name(t), q.min, q.min, q.quarter1, q.min / base.min, low, high);
 	}
 	return 0;
 }
@@ -209,8 +205,8 @@ static int batch_run(int quick, size_t unit, report_rows *rows)
 		const bench_stats s = bench_stats_of(cases[i].sample, (size_t)count);
 		const bench_stats e = bench_stats_of(cases[i].eval, (size_t)count);
 		report_row(rows, "%s,%s,%s,%d,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", devices[unit],
-			   strategies_material_name(cases[i].material), cases[i].name, BATCH, s.median, s.low, s.high,
-			   e.median, e.low, e.high);
+			   strategies_material_name(cases[i].material), cases[i].name, BATCH, s.min, s.min, s.quarter1,
+			   e.min, e.min, e.quarter1);
 	}
 	for (int i = 0; i < n; i++)
 		lobe_scene_destroy(cases[i].scene);
