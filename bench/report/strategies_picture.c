@@ -85,7 +85,7 @@ static int reference_run(int quick, size_t unit, report_rows *rows)
 {
 	const size_t picture = unit / strips(quick);
 	const int height = height_of(quick), width = BALLS * height, first = (int)(unit % strips(quick)) * STRIP;
-	const uint32_t n = quick ? 512 : 2048;
+	const uint32_t n = quick ? 256 : 1024;
 	strategies_case ball[BALLS];
 	double *value = calloc(2 * (size_t)width, sizeof *value);
 	int failed = value == NULL;
