@@ -283,11 +283,12 @@ figures:
 # Error against run time, and stability at the extremes. QUICK=1: in minutes. Everything but the main program is a library,
 # for tests of the studies.
 REPORT_SOURCES := $(filter-out bench/report/main.c,$(wildcard bench/report/*.c))
-REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/common/*.c)) bench/machine.c bench/scenes.c bench/timing.c
+REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/common/*.c)) examples/gallery/light.c \
+	bench/machine.c bench/scenes.c bench/timing.c
 REPORT_OBJECTS := $(patsubst %.c,$(B)/report/%.o,$(REPORT_SOURCES) $(REPORT_COMMON))
 REPORT_LIBS := $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a -lOpenEXRCore -lOpenEXR -lpng -lquadmath $(TEST_LIBS)
-REPORT_CFLAGS := $(TEST_CFLAGS) $(NATIVE) -Iexamples/common -Ibench/report $(shell pkg-config --cflags OpenEXR libpng 2>/dev/null)
-$(B)/report/%.o: %.c $(HEADERS) $(wildcard bench/*.h bench/report/*.h examples/common/*.h tests/*.h)
+REPORT_CFLAGS := $(TEST_CFLAGS) $(NATIVE) -Iexamples/common -Iexamples/gallery -Ibench/report $(shell pkg-config --cflags OpenEXR libpng 2>/dev/null)
+$(B)/report/%.o: %.c $(HEADERS) $(wildcard bench/*.h bench/report/*.h examples/*/*.h tests/*.h)
 	@mkdir -p $(@D)
 	@echo "  cc    $@"
 	$(Q)$(CC) $(REPORT_CFLAGS) -c $< -o $@

@@ -36,6 +36,8 @@ typedef struct {
 	/* Appends the rows of unit 0 .. units(quick) - 1. Called from several threads at once, unless timed. Not 0: failed,
 	 * after a message on stderr. */
 	int (*run)(int quick, size_t unit, report_rows *rows);
+	/* NULL, or what rows follow from besides: files that the user names, say. */
+	const char *(*settings)(int quick);
 } report_study;
 
 /* --- rows read back ----------------------------------------------------------------------------------------------- */

@@ -52,6 +52,8 @@ static uint64_t key_of(const report_section *section, const report_study *study,
 	uint64_t h = hash_section(hash(0xcbf29ce484222325u, lobe_opencl_source()), section->name);
 	h = hash(h, study->columns);
 	h = hash(h, quick ? "quick" : "full");
+	if (study->settings)
+		h = hash(h, study->settings(quick));
 	bench_processor_name(text, sizeof text);
 	if (study->timed)
 		h = hash(h, text);

@@ -1,0 +1,151 @@
+/* strategies_case.c - materials, and one sample by each technique. */
+#include <math.h>
+#include <string.h>
+
+#include "strategies.h"
+
+static const char *const names[STRATEGIES_TECHNIQUES] = {
+	"visible (default)",
+	"uniform",
+	"cosine",
+	"plain NDF",
+	"slopes 2014",
+	"ellipsoid 2018",
+	"cap 2023",
+	"bounded cap",
+	"V-cavity",
+	"hemisphere",
+	"light",
+	"balance",
+	"power",
+	"balance + bounded cap",
+};
+
+const char *strategies_name(int technique) { return names[technique]; }
+
+const char *strategies_material_name(int material)
+{
+	static const char *const materials[STRATEGIES_MATERIALS] = {"GGX", "GGX 4:1", "Beckmann"};
+	return materials[material];
+}
+
+int strategies_ndf(int material) { return material == STRATEGIES_BECKMANN; }
+
+/* --- grids -------------------------------------------------------------------------------------------------------- */
+
+size_t strategies_alphas(int quick) { return quick ? 7 : 13; }
+
+double strategies_alpha(int quick, size_t i) { return pow(10.0, -3.0 + (double)i / (quick ? 2.0 : 4.0)); }
+
+size_t strategies_cosines(int quick) { return quick ? 5 : 9; }
+
+double strategies_cosine(int quick, size_t i)
+{
+	static const double few[] = {1.0, 0.7, 0.3, 0.1, 0.02};
+	static const double many[] = {1.0, 0.9, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, 0.02};
+	return quick ? few[i] : many[i];
+}
+
+/* --- cases -------------------------------------------------------------------------------------------------------- */
+
+lobe_microfacet_conductor strategies_lobe(int material, float alpha, lobe_uint strategy)
+{
+	const lobe_uint ndf = material == STRATEGIES_BECKMANN ? LOBE_NDF_BECKMANN : LOBE_NDF_GGX;
+	const float across = material == STRATEGIES_BRUSHED ? 0.25f * alpha : alpha;
+	const lobe_microsurface s =
+		lobe_microsurface_make(lobe_distribution_make(ndf), lobe_linear_stretch(alpha, across));
+	return lobe_microfacet_conductor_make(
+		s, lobe_fresnel_model_conductor(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)),
+		strategy);
+}
+
+lobe_rough_conductor strategies_production(int material, float alpha)
+{
+	const float across = material == STRATEGIES_BRUSHED ? 0.25f * alpha : alpha;
+	return lobe_rough_conductor_make(alpha, across, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD));
+}
+
+/* The viewer of brushed metal stands 30 degrees off the brushing. */
+strategies_case strategies_case_make(int material, double alpha, double cosine, size_t light)
+{
+	strategies_case c;
+	const double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+	const double phi = material == STRATEGIES_BRUSHED ? 0.52359877559829887 : 0.0;
+	memset(&c, 0, sizeof c);
+	c.material = material;
+	c.alpha = alpha;
+	c.cosine = cosine;
+	c.wo = lobe_vec3_make((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cosine);
+	c.light = strategies_light_at(light, c.wo);
+	for (lobe_uint k = 0; k <= LOBE_STRATEGY_LAST; k++)
+		c.lobe[k] = strategies_lobe(material, (float)alpha, k);
+	return c;
+}
+
+/* --- techniques --------------------------------------------------------------------------------------------------- */
+
+static lobe_rgb times(lobe_rgb a, lobe_rgb b) { return lobe_rgb_make(a.r * b.r, a.g * b.g, a.b * b.b); }
+
+static float from_lobe(const strategies_case *c, lobe_uint strategy, const float u[3])
+{
+	const lobe_sample s =
+		lobe_microfacet_conductor_sample(c->lobe[strategy], c->wo, lobe_vec3_make(u[0], u[1], u[2]));
+	float pdf;
+	if (!s.event)
+		return 0.0f;
+	return strategies_luminance(times(s.weight, strategies_radiance(&c->light, s.wi, &pdf)));
+}
+
+static float from_light(const strategies_case *c, const float v[3])
+{
+	const struct light_sample s = strategies_draw(&c->light, v[0], v[1]);
+	if (!(s.wi.z > 0.0f && s.pdf > 0.0f))
+		return 0.0f;
+	const lobe_rgb f = lobe_microfacet_conductor_eval(c->lobe[LOBE_STRATEGY_VISIBLE], c->wo, s.wi);
+	return strategies_luminance(times(f, s.radiance)) / s.pdf;
+}
+
+/* Weight of a direction drawn with density a where the other technique has b. By the ratio: a square would overflow. */
+static float heuristic(int technique, float a, float b)
+{
+	const float ratio = b / a;
+	return 1.0f / (1.0f + (technique == STRATEGIES_POWER ? ratio * ratio : ratio));
+}
+
+static float from_both(const strategies_case *c, int technique, const float u[3], const float v[3])
+{
+	const lobe_uint strategy =
+		technique == STRATEGIES_BALANCE_BOUNDED ? LOBE_STRATEGY_BOUNDED_CAP : LOBE_STRATEGY_VISIBLE;
+	const lobe_microfacet_conductor *p = &c->lobe[strategy];
+	const lobe_sample s = lobe_microfacet_conductor_sample(*p, c->wo, lobe_vec3_make(u[0], u[1], u[2]));
+	const struct light_sample l = strategies_draw(&c->light, v[0], v[1]);
+	float sum = 0.0f, pdf;
+	if (s.event) {
+		const lobe_rgb radiance = strategies_radiance(&c->light, s.wi, &pdf);
+		sum = strategies_luminance(times(s.weight, radiance)) * heuristic(technique, s.pdf, pdf);
+	}
+	if (l.wi.z > 0.0f && l.pdf > 0.0f) {
+		const lobe_rgb f = lobe_microfacet_conductor_eval(*p, c->wo, l.wi);
+		pdf = lobe_microfacet_conductor_pdf(*p, c->wo, l.wi);
+		sum += strategies_luminance(times(f, l.radiance)) / l.pdf * heuristic(technique, l.pdf, pdf);
+	}
+	return sum;
+}
+
+float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3])
+{
+	if (technique < STRATEGIES_LOBE)
+		return from_lobe(c, (lobe_uint)technique, u);
+	return technique == STRATEGIES_LIGHT ? from_light(c, v) : from_both(c, technique, u, v);
+}
+
+float strategies_estimate_production(const strategies_case *c, const lobe_rough_conductor *p, const float u[3])
+{
+	const lobe_vec3 point = lobe_vec3_make(u[0], u[1], u[2]);
+	const lobe_sample s = c->material == STRATEGIES_BECKMANN ? lobe_beckmann_conductor_sample(*p, c->wo, point)
+								 : lobe_ggx_conductor_sample(*p, c->wo, point);
+	float pdf;
+	if (!s.event)
+		return 0.0f;
+	return strategies_luminance(times(s.weight, strategies_radiance(&c->light, s.wi, &pdf)));
+}

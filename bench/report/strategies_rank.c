@@ -1,0 +1,219 @@
+/* strategies_rank.c - see strategies_rank.h. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "strategies_rank.h"
+
+/* --- rows --------------------------------------------------------------------------------------------------------- */
+
+int rank_technique(const char *name)
+{
+	for (int t = 0; t < STRATEGIES_TECHNIQUES; t++)
+		if (strcmp(name, strategies_name(t)) == 0)
+			return t;
+	return -1;
+}
+
+size_t rank_light(const rank_map *m, const char *name)
+{
+	const lobe_vec3 up = lobe_vec3_make(0.0f, 0.0f, 1.0f);
+	for (size_t i = 0; i < strategies_lights(m->quick); i++) {
+		const strategies_light light = strategies_light_at(i, up);
+		if (strcmp(light.name, name) == 0)
+			return i;
+	}
+	return 0;
+}
+
+int rank_material(const char *name)
+{
+	for (int m = 0; m < STRATEGIES_MATERIALS; m++)
+		if (strcmp(name, strategies_material_name(m)) == 0)
+			return m;
+	return 0;
+}
+
+static void read_times(rank_map *m, const report_table *t)
+{
+	for (size_t i = 0; i < report_table_rows(t); i++) {
+		const int technique = rank_technique(report_cell(t, i, "technique"));
+		const int ndf = strategies_ndf(rank_material(report_cell(t, i, "material")));
+		const size_t light = rank_light(m, report_cell(t, i, "light"));
+		if (technique < 0)
+			continue;
+		const double ratio = report_number(t, i, "of_default");
+		m->time[ndf][light][technique] = ratio;
+		m->noise[ndf][light][technique] =
+			0.5 * (report_number(t, i, "of_default_high") - report_number(t, i, "of_default_low")) / ratio;
+	}
+}
+
+/* Rows are in the order of the units: material, light, alpha, cosine, technique. */
+static void read_map(rank_map *m, const report_table *t)
+{
+	const size_t alphas = strategies_alphas(m->quick), cosines = strategies_cosines(m->quick);
+	m->count = report_table_rows(t) / STRATEGIES_TECHNIQUES;
+	m->cell = calloc(m->count + 1, sizeof *m->cell);
+	if (!m->cell) {
+		fputs("report: out of memory\n", stderr);
+		exit(1);
+	}
+	for (size_t i = 0, first = 0; i < m->count; i++) {
+		rank_cell *c = &m->cell[i];
+		c->material = rank_material(report_cell(t, i * STRATEGIES_TECHNIQUES, "material"));
+		if (i && c->material != m->cell[i - 1].material)
+			first = i;
+		c->cosine = (i - first) % cosines;
+		c->alpha = (i - first) / cosines % alphas;
+		c->light = strategies_light_of(m->quick, c->material, (i - first) / cosines / alphas);
+		c->mean = report_number(t, i * STRATEGIES_TECHNIQUES, "mean");
+		for (int k = 0; k < STRATEGIES_TECHNIQUES; k++) {
+			c->variance[k] = report_number(t, i * STRATEGIES_TECHNIQUES + (size_t)k, "variance");
+			c->error[k] = report_number(t, i * STRATEGIES_TECHNIQUES + (size_t)k, "variance_error");
+		}
+	}
+}
+
+void rank_read(rank_map *m, int quick, const report_table *rows, const report_table *times)
+{
+	m->quick = quick;
+	read_times(m, times);
+	read_map(m, rows);
+}
+
+/* --- who wins ----------------------------------------------------------------------------------------------------- */
+
+static double cost(const rank_map *m, const rank_cell *c, int technique, int measure)
+{
+	if (measure == SAMPLES)
+		return technique >= STRATEGIES_BALANCE ? 2.0 : 1.0;
+	return m->time[strategies_ndf(c->material)][c->light][technique];
+}
+
+double rank_loss(const rank_map *m, const rank_cell *c, int technique, int measure)
+{
+	return fmax(c->variance[technique], 1e-300) * cost(m, c, technique, measure);
+}
+
+int rank_dark(const rank_cell *c) { return !(c->mean > 1e-25); }
+
+int rank_winner(const rank_map *m, const rank_cell *c, int techniques, int measure)
+{
+	int best = LOBE_STRATEGY_VISIBLE;
+	for (int k = 1; k < techniques; k++)
+		if (rank_loss(m, c, k, measure) < rank_loss(m, c, best, measure))
+			best = k;
+	const double enough = RANK_TIE * rank_loss(m, c, best, measure);
+	if (rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) <= enough)
+		return LOBE_STRATEGY_VISIBLE;
+	return rank_loss(m, c, LOBE_STRATEGY_BOUNDED_CAP, measure) <= enough ? LOBE_STRATEGY_BOUNDED_CAP : best;
+}
+
+int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure)
+{
+	const int ndf = strategies_ndf(c->material);
+	for (int other = 0; other < STRATEGIES_LOBE; other++) {
+		const double noise =
+			measure == TIME ? m->noise[ndf][c->light][other] + m->noise[ndf][c->light][k] : 0.0;
+		const double of_variance = 2.0 * hypot(c->error[k] / fmax(c->variance[k], 1e-300),
+						       c->error[other] / fmax(c->variance[other], 1e-300));
+		const double tie = fmax(RANK_TIE, 1.0 + fmin(noise + fmin(of_variance, 0.05), 0.25));
+		if (rank_loss(m, c, k, measure) > tie * rank_loss(m, c, other, measure))
+			return 0;
+	}
+	return 1;
+}
+
+int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure)
+{
+	return rank_winner(m, c, STRATEGIES_TECHNIQUES, measure) < STRATEGIES_LOBE;
+}
+
+rank_share rank_share_of(const rank_map *m, int k, int measure, int ndf)
+{
+	rank_share s = {0, 0, 0, 0};
+	for (size_t i = 0; i < m->count; i++) {
+		const rank_cell *c = &m->cell[i];
+		if (rank_dark(c) || (ndf >= 0 && strategies_ndf(c->material) != ndf))
+			continue;
+		const int good = rank_unbeaten(m, c, k, measure), turn = rank_lobes_turn(m, c, measure);
+		s.cells++;
+		s.turns += turn;
+		s.all += good;
+		s.turn += good && turn;
+	}
+	s.all *= 100.0 / fmax(s.cells, 1.0);
+	s.turn *= 100.0 / fmax(s.turns, 1.0);
+	return s;
+}
+
+static int ascending(const void *a, const void *b)
+{
+	const double x = *(const double *)a, y = *(const double *)b;
+	return (x > y) - (x < y);
+}
+
+double rank_quantile(double *values, size_t n, double q)
+{
+	if (n == 0)
+		return NAN;
+	qsort(values, n, sizeof *values, ascending);
+	return values[(size_t)(q * (double)(n - 1) + 0.5)];
+}
+
+/* --- the recommendation ------------------------------------------------------------------------------------------- */
+
+static int technique_recommended(lobe_recommendation r)
+{
+	if (r.from == LOBE_SAMPLE_LIGHT)
+		return STRATEGIES_LIGHT;
+	if (r.from == LOBE_SAMPLE_BOTH_POWER)
+		return STRATEGIES_POWER;
+	if (r.from == LOBE_SAMPLE_BOTH_BALANCE)
+		return r.strategy == LOBE_STRATEGY_BOUNDED_CAP ? STRATEGIES_BALANCE_BOUNDED : STRATEGIES_BALANCE;
+	return (int)r.strategy;
+}
+
+static lobe_recommend_cost costs_of(const rank_map *m, const rank_cell *c, int measure)
+{
+	lobe_recommend_cost p = lobe_recommend_cost_samples();
+	const double *time = m->time[strategies_ndf(c->material)][c->light];
+	if (measure == SAMPLES)
+		return p;
+	for (int k = 0; k < STRATEGIES_LOBE; k++)
+		p.lobe[k] = (float)time[k];
+	p.light = (float)time[STRATEGIES_LIGHT];
+	p.weighting = (float)(time[STRATEGIES_BALANCE] - time[LOBE_STRATEGY_VISIBLE] - time[STRATEGIES_LIGHT]);
+	return p;
+}
+
+void rank_recommend(const rank_map *m, int measure, rank_regrets *r)
+{
+	r->n[0] = r->n[1] = r->defaults = 0;
+	for (size_t i = 0; i < m->count; i++) {
+		const rank_cell *c = &m->cell[i];
+		if (rank_dark(c))
+			continue;
+		const strategies_case s = strategies_case_make(c->material, strategies_alpha(m->quick, c->alpha),
+							       strategies_cosine(m->quick, c->cosine), c->light);
+		const int t = technique_recommended(lobe_recommend_strategy(
+			s.lobe[0].surface, s.wo, strategies_shape(&s.light), costs_of(m, c, measure)));
+		double best = HUGE_VAL;
+		for (int k = 0; k < STRATEGIES_TECHNIQUES; k++)
+			best = fmin(best, rank_loss(m, c, k, measure));
+		const int probe = s.light.probe != NULL;
+		r->of[probe][r->n[probe]++] = rank_loss(m, c, t, measure) / best;
+		r->of_default[r->defaults++] =
+			rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) / rank_loss(m, c, t, measure);
+	}
+}
+
+double rank_within(const double *values, size_t n, double limit)
+{
+	double k = 0.0;
+	for (size_t i = 0; i < n; i++)
+		k += values[i] <= limit;
+	return n ? 100.0 * k / (double)n : (double)NAN;
+}

@@ -1,0 +1,77 @@
+/* strategies_rank.h - the map read back, and which technique is how good where.
+ *
+ * Efficiency is 1/(variance cost), where the cost of a sample is either a direction, as where each costs a ray, or the time
+ * that the comparison lobe takes for it with the light's lookup, one sample after another on one thread. */
+#ifndef LOBE_REPORT_STRATEGIES_RANK_H
+#define LOBE_REPORT_STRATEGIES_RANK_H
+
+#include "strategies.h"
+
+enum { LIGHTS_MAX = 32, SAMPLES = 0, TIME = 1, MEASURES = 2 };
+
+/* What ties: within 2 %, or the noise of the times where that is more. */
+#define RANK_TIE 1.02
+
+typedef struct {
+	int material;
+	size_t light, alpha, cosine; /* of the grids */
+	double mean, variance[STRATEGIES_TECHNIQUES], error[STRATEGIES_TECHNIQUES];
+} rank_cell;
+
+typedef struct {
+	int quick;
+	size_t count;
+	rank_cell *cell;
+	/* Over the default's, by distribution and light; half the range given with it, relative. */
+	double time[2][LIGHTS_MAX][STRATEGIES_TECHNIQUES], noise[2][LIGHTS_MAX][STRATEGIES_TECHNIQUES];
+} rank_map;
+
+/* From the studies' rows. */
+void rank_read(rank_map *m, int quick, const report_table *rows, const report_table *times);
+
+typedef struct {
+	double all, turn, cells, turns; /* shares in percent, and of how many */
+} rank_share;
+
+/* Loss over the best's in every cell that is not dark, by analytic lights and by probes. */
+typedef struct {
+	double *of[2]; /* [cells] */
+	size_t n[2];
+	double *of_default; /* the default's loss over the recommended one's */
+	size_t defaults;
+} rank_regrets;
+
+/* Of their names. */
+int rank_technique(const char *name);
+size_t rank_light(const rank_map *m, const char *name);
+int rank_material(const char *name);
+
+/* What is minimal for the best. */
+double rank_loss(const rank_map *m, const rank_cell *c, int technique, int measure);
+
+/* Light that does not reach the viewer: all techniques find 0. */
+int rank_dark(const rank_cell *c);
+
+/* The first of VISIBLE, BOUNDED_CAP and the rest that is as good as the best. techniques: how many are looked at. */
+int rank_winner(const rank_map *m, const rank_cell *c, int techniques, int measure);
+
+/* k is at least as efficient as every other lobe-sampling strategy, or what it lacks is within the noise. */
+int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure);
+
+/* Where the lobe is what to sample: no technique that asks the light is clearly better. */
+int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure);
+
+/* Of cells where k is unbeaten. ndf: as strategies_ndf, or -1 for all. */
+rank_share rank_share_of(const rank_map *m, int k, int measure, int ndf);
+
+double rank_quantile(double *values, size_t n, double q);
+
+void rank_recommend(const rank_map *m, int measure, rank_regrets *r);
+
+double rank_within(const double *values, size_t n, double limit);
+
+/* strategies_plot.c: figures of the map and of the error curves, and what the latter say. */
+void strategies_write_maps(report_page *page, const rank_map *m);
+void strategies_write_curves(report_page *page, const rank_map *m, const report_table *t, const report_table *time);
+
+#endif

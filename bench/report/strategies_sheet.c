@@ -1,0 +1,154 @@
+/* strategies_sheet.c - the sheets of pictures in equal time, and of their errors, from the rows. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "strategies.h"
+
+/* A picture: [height][width] luminances. */
+typedef struct {
+	int width, height;
+	double *value;
+	double samples, ns;
+} sheet_picture;
+
+static int words_of(const char *text)
+{
+	int n = 1;
+	for (; *text; text++)
+		n += *text == ' ';
+	return n;
+}
+
+/* The rows of one light and technique, which follow each other from the top down. */
+static sheet_picture gather(const report_table *t, const char *light, const char *technique)
+{
+	sheet_picture p = {0, 0, NULL, 0.0, 0.0};
+	for (size_t i = 0; i < report_table_rows(t); i++) {
+		if (strcmp(report_cell(t, i, "light"), light) != 0 ||
+		    strcmp(report_cell(t, i, "technique"), technique) != 0)
+			continue;
+		const char *text = report_cell(t, i, "pixels");
+		char *end;
+		p.width = words_of(text);
+		p.value = realloc(p.value, (size_t)(p.height + 1) * (size_t)p.width * sizeof *p.value);
+		if (!p.value)
+			exit(1);
+		for (int x = 0; x < p.width; x++, text = end)
+			p.value[p.height * p.width + x] = strtod(text, &end);
+		p.height++;
+		p.samples = report_number(t, i, "samples");
+		p.ns = report_number(t, i, "ns");
+	}
+	return p;
+}
+
+/* Root of the mean square difference over the balls' pixels, relative to their mean. */
+static double error_of(const sheet_picture *p, const sheet_picture *truth)
+{
+	double sum = 0.0, mean = 0.0, n = 0.0;
+	for (int i = 0; i < truth->width * truth->height; i++) {
+		const double d = p->value[i] - truth->value[i];
+		n += truth->value[i] > 0.0;
+		mean += truth->value[i];
+		sum += truth->value[i] > 0.0 ? d * d : 0.0;
+	}
+	return n > 0.0 ? sqrt(sum / n) / (mean / n) : 0.0;
+}
+
+/* The share of the balls' pixels that are off by more than a tenth. */
+static double bad_pixels(const sheet_picture *p, const sheet_picture *truth)
+{
+	double bad = 0.0, n = 0.0;
+	for (int i = 0; i < truth->width * truth->height; i++) {
+		n += truth->value[i] > 0.0;
+		bad += truth->value[i] > 0.0 && fabs(p->value[i] / truth->value[i] - 1.0) > 0.1;
+	}
+	return 100.0 * bad / fmax(n, 1.0);
+}
+
+/* A block of "x y tone error": tone for the eye, error relative to the true pixel, NaN beside the balls. */
+static void write_block(FILE *f, const sheet_picture *p, const sheet_picture *truth, double exposure)
+{
+	for (int y = 0; y < p->height; y++) {
+		for (int x = 0; x < p->width; x++) {
+			const double v = p->value[y * p->width + x], t = truth->value[y * p->width + x];
+			const double tone =
+				255.0 * pow(fmin(v * exposure / (1.0 + v * exposure) * 1.25, 1.0), 1.0 / 2.2);
+			if (t > 0.0)
+				fprintf(f, "%d %d %.0f %.4g\n", x, y, tone, fmax(fabs(v / t - 1.0), 1e-4));
+			else
+				fprintf(f, "%d %d %.0f NaN\n", x, y, tone);
+		}
+		fprintf(f, "\n");
+	}
+	fprintf(f, "\n");
+}
+
+static void write_sheet(report_page *page, const report_table *reference, const report_table *pictures,
+			const char *light, int number)
+{
+	char file[64], definitions[512];
+	sheet_picture truth = gather(reference, light, "reference"),
+		      doubt = gather(reference, light, "error of the reference");
+	double mean = 0.0, n = 0.0, off = 0.0, least = HUGE_VAL, of_default = 0.0;
+	int best = 0;
+	for (int i = 0; i < truth.width * truth.height; i++) {
+		n += truth.value[i] > 0.0;
+		mean += truth.value[i];
+		off += doubt.value[i] * doubt.value[i];
+	}
+	mean /= fmax(n, 1.0);
+	off = sqrt(off / fmax(n, 1.0)) / mean;
+	FILE *data = report_open("strategies_pictures.dat"), *titles = report_open("strategies_sheet_titles.gp");
+	fprintf(titles, "WIDTH = %d\nHEIGHT = %d\narray TITLES[%d]\n", truth.width, truth.height,
+		STRATEGIES_TECHNIQUES + 1);
+	for (int t = 0; t < STRATEGIES_TECHNIQUES; t++) {
+		sheet_picture p = gather(pictures, light, strategies_name(t));
+		const double error = error_of(&p, &truth);
+		if (t == LOBE_STRATEGY_VISIBLE)
+			of_default = error;
+		if (error < least) {
+			least = error;
+			best = t;
+		}
+		write_block(data, &p, &truth, 0.6 / mean);
+		fprintf(titles, "TITLES[%d] = \"%s: %.1f samples, RMS error %.3g, %.0f %% off by 10 %%\"\n", t + 1,
+			strategies_name(t), p.samples, error, bad_pixels(&p, &truth));
+		free(p.value);
+	}
+	write_block(data, &truth, &truth, 0.6 / mean);
+	fprintf(titles, "TITLES[%d] = \"reference, RMS error %.2g\"\n", STRATEGIES_TECHNIQUES + 1, off);
+	fclose(data);
+	fclose(titles);
+	snprintf(definitions, sizeof definitions,
+		 "PICTURES='strategies_pictures%d.png'; ERRORS='strategies_errors%d.png'; LIGHT='%s'", number, number,
+		 light);
+	report_gnuplot(page, "strategies_sheet.gp", definitions);
+	snprintf(file, sizeof file, "strategies_pictures%d.png", number);
+	report_figure(
+		page, file,
+		"Gold balls of alpha 0.02, 0.15 and 0.6 under *%s*, one bounce, by each technique in the time that the "
+		"default takes for 16 samples a pixel. RMS error relative to the mean; the reference's own is %.2g.",
+		light, off);
+	snprintf(file, sizeof file, "strategies_errors%d.png", number);
+	report_figure(page, file, "The same: relative error of each pixel.");
+	report_finding(
+		page,
+		"Three gold balls under %s in equal time: %s errs least, %.2g of the mean; the default alone %.2g",
+		light, strategies_name(best), least, of_default);
+	free(truth.value);
+	free(doubt.value);
+}
+
+void strategies_write_pictures(report_page *page, const report_table *reference, const report_table *pictures)
+{
+	const char *light = "";
+	int number = 0;
+	for (size_t i = 0; i < report_table_rows(reference); i++)
+		if (strcmp(report_cell(reference, i, "light"), light) != 0) {
+			light = report_cell(reference, i, "light");
+			write_sheet(page, reference, pictures, light, ++number);
+		}
+}

@@ -1,0 +1,353 @@
+/* recommend.h - which way to sample a microfacet lobe under a light: by which strategy of microfacet/strategy.h, and
+ * whether from the lobe, from the light, or from both.
+ *
+ *	lobe_light_shape sun = lobe_light_shape_disk(axis, 6.7e-5f, 0.8f);
+ *	lobe_recommendation r = lobe_recommend_strategy(surface, wo, sun, lobe_recommend_cost_samples());
+ *	p = lobe_microfacet_conductor_make(surface, fresnel, r.strategy);	and r.from says what to draw from
+ *
+ * Of a reflecting lobe. The light is described by a disk and a glow around one direction (in the shading frame, unit),
+ * their solid angles, and how much of all light comes from each; the rest is a sky over the surface.
+ * The variance that each technique would have is then an integral, and that is what is compared: integrated with
+ * LOBE_RECOMMEND_POINTS points of a lattice from the lobe and as many from the light, all techniques on the same ones
+ * (power heuristic between the two). A technique's efficiency is 1/(variance cost). Nearly equal ones go to the first of
+ * VISIBLE, BOUNDED_CAP and the rest.
+ *
+ * It takes about a millisecond: a question to ask for a material, an angle and a light, not for a sample. How often
+ * it is right, and how far off when it is not: `make report`, section strategies; tests/test_recommend.c. */
+#ifndef LOBE_RECOMMEND_H
+#define LOBE_RECOMMEND_H
+
+#include "core/frame.h"
+#include "core/warp.h"
+#include "microfacet/scatter.h"
+
+enum { LOBE_RECOMMEND_POINTS = 512 };
+
+/* What to draw directions from. With both, a direction of each, weighted by the balance or the power heuristic (Veach
+ * 1997). Stable across versions. */
+enum { LOBE_SAMPLE_LOBE = 0, LOBE_SAMPLE_LIGHT = 1, LOBE_SAMPLE_BOTH_BALANCE = 2, LOBE_SAMPLE_BOTH_POWER = 3 };
+
+/* disk, glow, in [0, 1], at most 1 together: their shares of the light. solid_angle [sr], in (0, 2 pi]: of the disk, which
+ * has a sharp edge. exponent, >= 0: the n of a glow that falls off like ((1 + cos)/2)^n. slope, >= -1: the rest is a sky of
+ * radiance 1 + slope cos(angle to the surface's normal): 2 for the CIE's overcast one, -2/3 for one three times as bright
+ * at the horizon as overhead. */
+typedef struct {
+	lobe_vec3 axis;
+	lobe_real disk, solid_angle, glow, exponent, slope;
+} lobe_light_shape;
+
+/* A sky alone; 0: the same from everywhere above. */
+LOBE_FN lobe_light_shape lobe_light_shape_sky(lobe_real slope)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	lobe_light_shape s;
+	s.axis = lobe_vec3_make(zero, zero, one);
+	s.disk = s.glow = s.exponent = zero;
+	s.solid_angle = one;
+	s.slope = slope;
+	return s;
+}
+
+/* A sun or a lamp; the rest comes evenly from above. */
+LOBE_FN lobe_light_shape lobe_light_shape_disk(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
+{
+	lobe_light_shape s = lobe_light_shape_sky(LOBE_R(0.0));
+	s.axis = axis;
+	s.disk = share;
+	s.solid_angle = solid_angle;
+	return s;
+}
+
+/* The same with a glow around it: a veil, a window. solid_angle [sr]: of a uniform light as concentrated, (integral of
+ * L)^2 over integral of L^2, which is 4 pi (2 n + 1)/(n + 1)^2. */
+LOBE_FN lobe_light_shape lobe_light_shape_with_glow(lobe_light_shape s, lobe_real solid_angle, lobe_real share)
+{
+	const lobe_real q = lobe_max(LOBE_R(2.0) * LOBE_2PI / solid_angle, LOBE_R(1.0));
+	s.glow = share;
+	s.exponent = q - LOBE_R(1.0) + lobe_sqrt(q * (q - LOBE_R(1.0)));
+	return s;
+}
+
+LOBE_FN lobe_light_shape lobe_light_shape_glow(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
+{
+	const lobe_light_shape s = lobe_light_shape_disk(axis, LOBE_R(1.0), LOBE_R(0.0));
+	return lobe_light_shape_with_glow(s, solid_angle, share);
+}
+
+/* What a sample costs, in any unit: from the lobe by each strategy, from the light, and what weighting adds to the two. */
+typedef struct {
+	lobe_real lobe[LOBE_STRATEGY_LAST + 1];
+	lobe_real light, weighting;
+} lobe_recommend_cost;
+
+/* Every direction costs the same: what holds where a ray is traced along each. */
+LOBE_FN lobe_recommend_cost lobe_recommend_cost_samples(void)
+{
+	lobe_recommend_cost c;
+	for (int i = 0; i <= LOBE_STRATEGY_LAST; i++)
+		c.lobe[i] = LOBE_R(1.0);
+	c.light = LOBE_R(1.0);
+	c.weighting = LOBE_R(0.0);
+	return c;
+}
+
+/* from: LOBE_SAMPLE_*. strategy: LOBE_STRATEGY_*, also where the lobe is not drawn from (then VISIBLE). deviation:
+ * expected standard deviation of one sample (of BOTH: a direction of each) over its mean. */
+typedef struct {
+	lobe_uint strategy, from;
+	lobe_real deviation;
+} lobe_recommendation;
+
+/* --- integrals ---------------------------------------------------------------------------------------------------- */
+
+/* What is looked at: the lobe's strategies, the light, and both with VISIBLE by either heuristic and with BOUNDED_CAP by
+ * the balance heuristic. */
+enum {
+	LOBE_RECOMMEND_LIGHT = LOBE_STRATEGY_LAST + 1,
+	LOBE_RECOMMEND_DENSITIES,
+	LOBE_RECOMMEND_BALANCE = LOBE_RECOMMEND_DENSITIES,
+	LOBE_RECOMMEND_POWER,
+	LOBE_RECOMMEND_BALANCE_BOUNDED,
+	LOBE_RECOMMEND_TECHNIQUES
+};
+
+/* value: f L |cos|, Fresnel's term left out. pdf: of each density. */
+typedef struct {
+	lobe_real value;
+	lobe_real pdf[LOBE_RECOMMEND_DENSITIES];
+} lobe_recommend_point;
+
+/* mean, and of each technique what the first pass finds of it (mass of the densities; of BOTH the lobe's part of the mean)
+ * and the second (variance). */
+typedef struct {
+	lobe_real mean;
+	lobe_real first[LOBE_RECOMMEND_TECHNIQUES];
+	lobe_real rejected[LOBE_RECOMMEND_DENSITIES];
+	lobe_real variance[LOBE_RECOMMEND_TECHNIQUES];
+} lobe_recommend_sums;
+
+/* VISIBLE_SLOPES, VISIBLE_ELLIPSOID and VISIBLE_CAP have VISIBLE's density (of GGX), or are no better (of others). */
+LOBE_FN int lobe_recommend_looks_at(int strategy)
+{
+	return (strategy < LOBE_STRATEGY_VISIBLE_SLOPES) | (strategy > LOBE_STRATEGY_VISIBLE_CAP);
+}
+
+/* Densities of which the points from the lobe see all, so that what is missing of them is what the surface rejects. */
+LOBE_FN int lobe_recommend_covered(int k, lobe_microsurface s)
+{
+	return (k != LOBE_STRATEGY_UNIFORM) & (k != LOBE_STRATEGY_COSINE) & !lobe_strategy_borrows_ggx((lobe_uint)k, s);
+}
+
+/* With which the light's directions are drawn: its radiance over all of its power [1/sr]. */
+LOBE_FN lobe_real lobe_light_shape_density(lobe_light_shape l, lobe_vec3 w)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	/* |w - axis|^2 = 2 (1 - cos) = solid angle/pi at the edge; |w + axis|^2 = 2 (1 + cos) */
+	const lobe_vec3 chord = lobe_vec3_fma(-one, l.axis, w), other = lobe_vec3_add(l.axis, w);
+	const int inside = lobe_dot(chord, chord) <= l.solid_angle * LOBE_INV_PI;
+	const lobe_real n = l.exponent;
+	const lobe_real glow =
+		(n + one) * (LOBE_R(0.25) * LOBE_INV_PI) * lobe_pow(LOBE_R(0.25) * lobe_dot(other, other), n);
+	const lobe_real sky = lobe_fma(l.slope, w.z, one) / (LOBE_2PI * lobe_fma(LOBE_R(0.5), l.slope, one));
+	const lobe_real rest = w.z > zero ? (one - l.disk - l.glow) * sky : zero;
+	return lobe_fma(l.glow, glow, lobe_fma(l.disk, inside ? one / l.solid_angle : zero, rest));
+}
+
+LOBE_FN lobe_vec3 lobe_light_shape_draw(lobe_light_shape l, lobe_vec3 u)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
+	/* 1 - cos of the point at fraction u.y, and z from z + slope z^2/2 = c. */
+	const lobe_real disk = u.y * l.solid_angle / LOBE_2PI;
+	const lobe_real glow = two * (one - lobe_pow(one - u.y, one / (l.exponent + one)));
+	const lobe_real c = u.y * lobe_fma(LOBE_R(0.5), l.slope, one);
+	const lobe_real z = lobe_min(two * c / (one + lobe_sqrt(lobe_max(lobe_fma(two * l.slope, c, one), zero))), one);
+	const int around = u.z < l.disk + l.glow;
+	const lobe_real height = u.z < l.disk ? disk : (around ? glow : one - z);
+	/* The rim of a cap of this height. */
+	const lobe_vec3 w = lobe_spherical_cap(lobe_vec2_make(u.x, one), height);
+	return around ? lobe_frame_to_world(lobe_frame_from_normal(l.axis), w) : w;
+}
+
+/* Point i of a lattice that fills the cube evenly (Roberts 2018, "The unreasonable effectiveness of quasirandom
+ * sequences"). */
+LOBE_FN lobe_vec3 lobe_recommend_u(lobe_uint i)
+{
+	const lobe_real unit = LOBE_R(0x1p-24);
+	return lobe_vec3_make((lobe_real)((i * 0xd1b54a33u + 0x80000000u) >> 8) * unit,
+			      (lobe_real)((i * 0xabc98389u + 0x80000000u) >> 8) * unit,
+			      (lobe_real)((i * 0x8cb92ba7u + 0x80000000u) >> 8) * unit);
+}
+
+LOBE_FN_APART lobe_recommend_point lobe_recommend_at(lobe_microsurface s, lobe_vec3 wo, lobe_vec3 wi,
+						     lobe_light_shape light)
+{
+	const lobe_real zero = LOBE_R(0.0);
+	lobe_recommend_point p;
+	p.value = zero;
+	for (int k = 0; k < LOBE_STRATEGY_LAST + 1; k++) {
+		p.pdf[k] = zero;
+		if (!lobe_recommend_looks_at(k) | !(wi.z > zero))
+			continue;
+		const lobe_scatter r = lobe_scatter_at(s, (lobe_uint)k, wo, wi, LOBE_R(1.0), 0);
+		p.pdf[k] = r.facing > zero ? lobe_finite_or_zero(r.sampled) : zero;
+		if (k == LOBE_STRATEGY_VISIBLE)
+			p.value = r.facing > zero ? lobe_finite_or_zero(r.density * r.g2_over_cos) : zero;
+	}
+	p.pdf[LOBE_RECOMMEND_LIGHT] = lobe_light_shape_density(light, wi);
+	p.value *= p.pdf[LOBE_RECOMMEND_LIGHT];
+	return p;
+}
+
+/* What a point drawn by density own, where the other technique has other, counts of n: by the power heuristic. */
+LOBE_FN lobe_real lobe_recommend_weight(lobe_real own, lobe_real other)
+{
+	const lobe_real ratio = other / own;
+	const lobe_real w = LOBE_R(1.0) / (own * lobe_fma(ratio, ratio, LOBE_R(1.0)));
+	return own > LOBE_R(0.0) ? w * (LOBE_R(1.0) / (lobe_real)LOBE_RECOMMEND_POINTS) : LOBE_R(0.0);
+}
+
+/* The strategy that technique t takes the lobe's direction from. */
+LOBE_FN int lobe_recommend_strategy_of(int t)
+{
+	return t == LOBE_RECOMMEND_BALANCE_BOUNDED ? LOBE_STRATEGY_BOUNDED_CAP
+						   : (t < LOBE_RECOMMEND_LIGHT ? t : LOBE_STRATEGY_VISIBLE);
+}
+
+/* Weight of the lobe's direction in technique t. */
+LOBE_FN lobe_real lobe_recommend_share(int t, lobe_real lobe, lobe_real light)
+{
+	const lobe_real ratio = light / lobe;
+	const lobe_real r = t == LOBE_RECOMMEND_POWER ? ratio * ratio : ratio;
+	return lobe > LOBE_R(0.0) ? LOBE_R(1.0) / (LOBE_R(1.0) + r) : LOBE_R(0.0);
+}
+
+LOBE_FN_APART lobe_recommend_sums lobe_recommend_first(lobe_recommend_sums s, lobe_recommend_point p, lobe_real w)
+{
+	s.mean += w * p.value;
+	for (int k = 0; k < LOBE_RECOMMEND_DENSITIES; k++)
+		s.first[k] += w * p.pdf[k];
+	for (int t = LOBE_RECOMMEND_BALANCE; t < LOBE_RECOMMEND_TECHNIQUES; t++)
+		s.first[t] +=
+			w * p.value *
+			lobe_recommend_share(t, p.pdf[lobe_recommend_strategy_of(t)], p.pdf[LOBE_RECOMMEND_LIGHT]);
+	return s;
+}
+
+/* (x/p - mean)^2 p */
+LOBE_FN lobe_real lobe_recommend_spread(lobe_real x, lobe_real p, lobe_real mean)
+{
+	const lobe_real off = x / p - mean;
+	return p > LOBE_R(0.0) ? off * off * p : LOBE_R(0.0);
+}
+
+LOBE_FN_APART lobe_recommend_sums lobe_recommend_second(lobe_recommend_sums s, lobe_recommend_point p, lobe_real w)
+{
+	const lobe_real light = p.pdf[LOBE_RECOMMEND_LIGHT];
+	for (int k = 0; k < LOBE_RECOMMEND_DENSITIES; k++)
+		s.variance[k] += w * lobe_recommend_spread(p.value, p.pdf[k], s.mean);
+	for (int t = LOBE_RECOMMEND_BALANCE; t < LOBE_RECOMMEND_TECHNIQUES; t++) {
+		const lobe_real b = p.pdf[lobe_recommend_strategy_of(t)];
+		const lobe_real share = lobe_recommend_share(t, b, light);
+		const lobe_real of_light =
+			lobe_recommend_spread((LOBE_R(1.0) - share) * p.value, light, s.mean - s.first[t]);
+		s.variance[t] += w * (lobe_recommend_spread(share * p.value, b, s.first[t]) + of_light);
+	}
+	return s;
+}
+
+/* A direction of strategy k, (0, 0, 0) for none. */
+LOBE_FN_APART lobe_vec3 lobe_recommend_draw(lobe_microsurface s, lobe_uint k, lobe_vec3 wo, lobe_vec3 u)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	const lobe_seen o = lobe_see(s, wo, one);
+	const lobe_vec3 m = lobe_linear_normal(s.map, lobe_strategy_sample(k, s, o, wo, 0, u).m);
+	const lobe_real twice = LOBE_R(2.0) * lobe_dot(wo, m) / lobe_dot(m, m);
+	const lobe_vec3 wi = lobe_vec3_fma(twice, m, lobe_vec3_scale(wo, -one));
+	const int seen = (wi.z > zero) & (lobe_dot(wo, m) > zero);
+	return seen ? wi : lobe_vec3_make(zero, zero, zero);
+}
+
+/* Both passes; the second takes what the first found. */
+LOBE_FN_APART lobe_recommend_sums lobe_recommend_integrate(lobe_microsurface surface, lobe_vec3 wo,
+							   lobe_light_shape light)
+{
+	const lobe_real zero = LOBE_R(0.0), part = LOBE_R(1.0) / (lobe_real)LOBE_RECOMMEND_POINTS;
+	lobe_recommend_sums s;
+	s.mean = zero;
+	for (int t = 0; t < LOBE_RECOMMEND_TECHNIQUES; t++)
+		s.first[t] = s.variance[t] = zero;
+	for (int k = 0; k < LOBE_RECOMMEND_DENSITIES; k++)
+		s.rejected[k] = zero;
+	for (int pass = 0; pass < 2; pass++)
+		for (lobe_uint i = 1; i <= LOBE_RECOMMEND_POINTS; i++) {
+			const lobe_vec3 u = lobe_recommend_u(i);
+			const lobe_vec3 b = lobe_recommend_draw(surface, LOBE_STRATEGY_VISIBLE, wo, u);
+			const lobe_recommend_point at_b = lobe_recommend_at(surface, wo, b, light);
+			const lobe_recommend_point at_l =
+				lobe_recommend_at(surface, wo, lobe_light_shape_draw(light, u), light);
+			const lobe_real w_b =
+				lobe_recommend_weight(at_b.pdf[LOBE_STRATEGY_VISIBLE], at_b.pdf[LOBE_RECOMMEND_LIGHT]);
+			const lobe_real w_l =
+				lobe_recommend_weight(at_l.pdf[LOBE_RECOMMEND_LIGHT], at_l.pdf[LOBE_STRATEGY_VISIBLE]);
+			if (pass) {
+				s = lobe_recommend_second(lobe_recommend_second(s, at_b, w_b), at_l, w_l);
+				continue;
+			}
+			s = lobe_recommend_first(lobe_recommend_first(s, at_b, w_b), at_l, w_l);
+			for (int k = 0; k < LOBE_STRATEGY_LAST + 1; k++)
+				if (lobe_recommend_looks_at(k) & lobe_recommend_covered(k, surface))
+					s.rejected[k] += lobe_recommend_draw(surface, (lobe_uint)k, wo, u).z > zero
+								 ? zero
+								 : part;
+		}
+	return s;
+}
+
+/* --- the answer --------------------------------------------------------------------------------------------------- */
+
+/* surface: of the lobe. wo: unit, above the surface. A light that the lobe does not see at all (mean 0 to the last digit)
+ * is drawn from. */
+LOBE_FN_APART lobe_recommendation lobe_recommend_strategy(lobe_microsurface surface, lobe_vec3 wo,
+							  lobe_light_shape light, lobe_recommend_cost cost)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	/* The default first, and its nearest. Others have to be better by more than the integrals are good for; by still
+	 * more where weights have no bound, whose rare large ones the points may miss. */
+	const lobe_real clearly = LOBE_R(0.985), unbounded = LOBE_R(0.93);
+	const lobe_recommend_sums s = lobe_recommend_integrate(surface, wo, light);
+	lobe_recommendation best;
+	best.strategy = LOBE_STRATEGY_VISIBLE;
+	best.from = LOBE_SAMPLE_LIGHT;
+	best.deviation = zero;
+	lobe_real least = -one;
+	for (int i = 0; i < LOBE_RECOMMEND_TECHNIQUES; i++) {
+		/* VISIBLE, BOUNDED_CAP, then what is left. */
+		const int t = i == 1 ? LOBE_STRATEGY_BOUNDED_CAP : (i == LOBE_STRATEGY_BOUNDED_CAP ? 1 : i);
+		const int k = lobe_recommend_strategy_of(t);
+		const int both = t >= LOBE_RECOMMEND_BALANCE, of_light = t == LOBE_RECOMMEND_LIGHT;
+		if (!(both | of_light) & !lobe_recommend_looks_at(t))
+			continue;
+		/* Samples that find nothing: of covered densities those that the surface rejects. */
+		const lobe_real unseen = lobe_max(one - s.first[k], zero);
+		const lobe_real nothing =
+			of_light ? zero : (lobe_recommend_covered(k, surface) ? s.rejected[k] : unseen);
+		const lobe_real part = both ? s.first[t] : s.mean;
+		const lobe_real variance = lobe_fma(nothing * part, part, s.variance[t]);
+		const lobe_real price =
+			both ? cost.lobe[k] + cost.light + cost.weighting : (of_light ? cost.light : cost.lobe[k]);
+		const lobe_real loss = variance * price;
+		const int heavy = !(both | of_light) & (k >= LOBE_STRATEGY_NDF) & (k != LOBE_STRATEGY_BOUNDED_CAP);
+		if ((s.mean > zero) & ((least < zero) | (loss < (heavy ? unbounded : clearly) * least))) {
+			least = loss;
+			best.strategy = (lobe_uint)(of_light ? LOBE_STRATEGY_VISIBLE : k);
+			best.from = t == LOBE_RECOMMEND_POWER
+					    ? LOBE_SAMPLE_BOTH_POWER
+					    : (both ? LOBE_SAMPLE_BOTH_BALANCE
+						    : (of_light ? LOBE_SAMPLE_LIGHT : LOBE_SAMPLE_LOBE));
+			best.deviation = lobe_sqrt(variance) / s.mean;
+		}
+	}
+	return best;
+}
+
+#endif

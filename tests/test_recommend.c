@@ -1,0 +1,332 @@
+/* test_recommend.c - lobe/recommend.h: the light's shape is a density that its draws follow; what is recommended is about as
+ * efficient as the best of all techniques by variances measured from their own samples; and its expected deviation is
+ * theirs. How it does over the whole map of roughness, angle and light: `make report`, section strategies. */
+#include "measured.h"
+#include "support.h"
+
+#include "lobe/lobe.h"
+#include "lobe/recommend.h"
+#include "unity.h"
+
+#include <math.h>
+#include <stdio.h>
+
+void setUp(void) { measured_reset(); }
+void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
+
+static lobe_vec3 direction(double z, double phi)
+{
+	const double r = sqrt((1.0 - z) * (1.0 + z));
+	return lobe_vec3_make((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
+}
+
+/* --- the light's shape -------------------------------------------------------------------------------------------- */
+
+enum { SHAPES = 5 };
+
+static lobe_light_shape shape(int i)
+{
+	const lobe_vec3 axis = direction(0.64, 1.3);
+	lobe_light_shape sun = lobe_light_shape_disk(axis, 0.024f, 0.8f);
+	sun.slope = -2.0f / 3.0f;
+	switch (i) {
+	case 0:
+		return lobe_light_shape_sky(2.0f);
+	case 1:
+		return sun;
+	case 2:
+		return lobe_light_shape_glow(axis, 1.5f, 1.0f);
+	case 3:
+		return lobe_light_shape_with_glow(lobe_light_shape_disk(axis, 0.3f, 0.2f), 0.7f, 0.5f);
+	default:
+		return lobe_light_shape_disk(direction(0.05, 2.0), 0.4f, 1.0f);
+	}
+}
+
+/* Boxes of equal area on the sphere, the axis of the light for pole: the density's integral over each (midpoints of a fine
+ * grid) against the share of draws. crooked: draws of another shape, which has to show. */
+enum { RINGS = 12, SECTORS = 8, BOXES = RINGS * SECTORS, FINE = 60 };
+
+static double misfit(lobe_light_shape drawn, lobe_light_shape of, uint32_t stream, double *integral)
+{
+	static double expected[BOXES], found[BOXES];
+	const lobe_frame frame = lobe_frame_from_normal(of.axis);
+	const uint32_t n = 200000u;
+	double worst = 0.0;
+	*integral = 0.0;
+	for (int b = 0; b < BOXES; b++)
+		expected[b] = found[b] = 0.0;
+	for (int i = 0; i < RINGS * FINE; i++)
+		for (int k = 0; k < SECTORS * FINE; k++) {
+			/* 1 - cos = 2 x^3, as lights are small */
+			const double x = (i + 0.5) / (RINGS * FINE), h = 2.0 * x * x * x;
+			const double phi = 6.283185307179586 * (k + 0.5) / (SECTORS * FINE), r = sqrt(h * (2.0 - h));
+			const double area = 6.0 * x * x / (RINGS * FINE) * 6.283185307179586 / (SECTORS * FINE);
+			const lobe_vec3 local =
+				lobe_vec3_make((float)(r * cos(phi)), (float)(r * sin(phi)), (float)(1.0 - h));
+			const double p = (double)lobe_light_shape_density(of, lobe_frame_to_world(frame, local)) * area;
+			expected[i / FINE * SECTORS + k / FINE] += p;
+			*integral += p;
+		}
+	for (uint32_t i = 0; i < n; i++) {
+		float u[3];
+		test_u3(stream, i, u);
+		const lobe_vec3 w = lobe_light_shape_draw(drawn, lobe_vec3_make(u[0], u[1], u[2]));
+		const lobe_vec3 local = lobe_frame_to_local(frame, w);
+		const lobe_vec3 chord = lobe_vec3_fma(-1.0f, of.axis, w);
+		const double x = cbrt(0.25 * (double)lobe_dot(chord, chord));
+		const double turn = atan2((double)local.y, (double)local.x) / 6.283185307179586;
+		const int ring = (int)fmin(x * RINGS, RINGS - 1.0);
+		const int sector = (int)fmin((turn < 0.0 ? turn + 1.0 : turn) * SECTORS, SECTORS - 1.0);
+		found[ring * SECTORS + sector] += 1.0 / n;
+	}
+	for (int b = 0; b < BOXES; b++)
+		/* The midpoints err at the disk's edge and the horizon. */
+		worst = larger(worst,
+			       (fabs(found[b] - expected[b]) - 0.02 * expected[b]) / sqrt((expected[b] + 1e-4) / n));
+	return worst;
+}
+
+static void test_draws_follow_the_density(void)
+{
+	double worst = 0.0, off = 0.0, integral;
+	for (int i = 0; i < SHAPES; i++) {
+		worst = larger(worst, misfit(shape(i), shape(i), 40u + (uint32_t)i, &integral));
+		off = larger(off, fabs(integral - 1.0));
+	}
+	measured("boxes: draws off the density, standard deviations", worst, 5.0);
+	measured("integral of the density - 1", off, 0.02);
+	/* Caught: a glow of another width, and a sky of another slope. */
+	lobe_light_shape wrong = shape(2);
+	wrong.exponent *= 1.3f;
+	const double of_glow = misfit(wrong, shape(2), 50u, &integral);
+	wrong = shape(0);
+	wrong.slope = 1.0f;
+	const double of_sky = misfit(wrong, shape(0), 51u, &integral);
+	printf("  planted: %.1f and %.1f standard deviations\n", of_glow, of_sky);
+	TEST_ASSERT_TRUE(of_glow > 8.0);
+	TEST_ASSERT_TRUE(of_sky > 8.0);
+}
+
+/* --- variances of the techniques' own samples --------------------------------------------------------------------- */
+
+typedef struct {
+	const char *what;
+	lobe_uint ndf;
+	double ax, ay, z;
+	lobe_light_shape light;
+	int from, strategy; /* expected; negative: any that is good */
+} question;
+
+/* A light aside, and one in the mirror image of the viewer at z (phi 0). */
+static lobe_vec3 aside(void) { return direction(0.64, 1.3); }
+static lobe_vec3 mirrored(double z) { return direction(z, 3.14159265358979324); }
+
+enum { QUESTIONS = 9 };
+
+static question question_at(int i)
+{
+	lobe_light_shape sun = lobe_light_shape_disk(aside(), 1e-3f, 0.8f);
+	sun.slope = -2.0f / 3.0f;
+	const question all[QUESTIONS] = {
+		{"rough under a dome", LOBE_NDF_GGX, 0.5, 0.5, 0.7, lobe_light_shape_sky(0.0f), LOBE_SAMPLE_LOBE,
+		 LOBE_STRATEGY_BOUNDED_CAP},
+		{"less rough under a dome", LOBE_NDF_GGX, 0.2, 0.2, 0.7, lobe_light_shape_sky(0.0f), LOBE_SAMPLE_LOBE,
+		 -1},
+		{"brushed under a dome", LOBE_NDF_GGX, 0.4, 0.1, 0.3, lobe_light_shape_sky(0.0f), LOBE_SAMPLE_LOBE, -1},
+		{"disk aside", LOBE_NDF_GGX, 0.3, 0.3, 0.7, lobe_light_shape_disk(aside(), 0.024f, 1.0f),
+		 LOBE_SAMPLE_LIGHT, -1},
+		{"disk in the highlight, smooth", LOBE_NDF_GGX, 0.02, 0.02, 0.7,
+		 lobe_light_shape_disk(mirrored(0.7), 0.1f, 1.0f), LOBE_SAMPLE_LOBE, -1},
+		{"disk in the highlight, rough", LOBE_NDF_GGX, 0.5, 0.5, 0.7,
+		 lobe_light_shape_disk(mirrored(0.7), 0.024f, 1.0f), LOBE_SAMPLE_LIGHT, -1},
+		{"sky with sun", LOBE_NDF_GGX, 0.2, 0.2, 0.5, sun, -1, -1},
+		{"glow", LOBE_NDF_GGX, 0.2, 0.2, 0.5, lobe_light_shape_glow(aside(), 1.5f, 1.0f), -1, -1},
+		{"Beckmann under an overcast sky", LOBE_NDF_BECKMANN, 0.4, 0.4, 0.5, lobe_light_shape_sky(2.0f),
+		 LOBE_SAMPLE_LOBE, -1},
+	};
+	return all[i];
+}
+
+static lobe_microsurface surface_of(const question *q)
+{
+	return lobe_microsurface_make(lobe_distribution_make(q->ndf), lobe_linear_stretch((float)q->ax, (float)q->ay));
+}
+
+static lobe_microfacet_conductor white(lobe_microsurface s, lobe_uint strategy)
+{
+	return lobe_microfacet_conductor_make(s, lobe_fresnel_model_constant(lobe_rgb_make(1.0f, 1.0f, 1.0f)),
+					      strategy);
+}
+
+static double heuristic(lobe_uint from, double a, double b)
+{
+	const double r = b / a;
+	return 1.0 / (1.0 + (from == LOBE_SAMPLE_BOTH_POWER ? r * r : r));
+}
+
+/* One sample of a technique, from the library's own samples. */
+static double estimate(const question *q, const lobe_microfacet_conductor *p, lobe_vec3 wo, lobe_uint from, lobe_vec3 u,
+		       lobe_vec3 v)
+{
+	double sum = 0.0;
+	if (from != LOBE_SAMPLE_LIGHT) {
+		const lobe_sample s = lobe_microfacet_conductor_sample(*p, wo, u);
+		if (s.event) {
+			const double light = (double)lobe_light_shape_density(q->light, s.wi);
+			const double w = from == LOBE_SAMPLE_LOBE ? 1.0 : heuristic(from, (double)s.pdf, light);
+			sum += w * (double)s.weight.g * light;
+		}
+	}
+	if (from != LOBE_SAMPLE_LOBE) {
+		const lobe_vec3 wi = lobe_light_shape_draw(q->light, v);
+		const double light = (double)lobe_light_shape_density(q->light, wi);
+		if (light > 0.0 && wi.z > 0.0f) {
+			const double lobe = (double)lobe_microfacet_conductor_pdf(*p, wo, wi);
+			const double w = from == LOBE_SAMPLE_LIGHT ? 1.0 : heuristic(from, light, lobe);
+			sum += w * (double)lobe_microfacet_conductor_eval(*p, wo, wi).g;
+		}
+	}
+	return sum;
+}
+
+typedef struct {
+	double variance, error, mean;
+} spread;
+
+static uint32_t samples(void) { return test_long() ? 1000000u : 50000u; }
+
+static spread spread_of(const question *q, lobe_uint strategy, lobe_uint from, uint32_t stream)
+{
+	const lobe_microfacet_conductor p = white(surface_of(q), strategy);
+	const lobe_vec3 wo = direction(q->z, 0.0);
+	const uint32_t n = samples();
+	double s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0;
+	for (uint32_t i = 0; i < n; i++) {
+		float u[3], v[3];
+		test_u3(2u * stream, i, u);
+		test_u3(2u * stream + 1u, i, v);
+		const double x =
+			estimate(q, &p, wo, from, lobe_vec3_make(u[0], u[1], u[2]), lobe_vec3_make(v[0], v[1], v[2]));
+		s1 += x;
+		s2 += x * x;
+		s3 += x * x * x;
+		s4 += x * x * x * x;
+	}
+	spread r;
+	r.mean = s1 / n;
+	r.variance = s2 / n - r.mean * r.mean;
+	const double fourth = s4 / n - 4.0 * r.mean * s3 / n + 6.0 * r.mean * r.mean * s2 / n - 3.0 * pow(r.mean, 4.0);
+	r.error = sqrt(fmax(fourth - r.variance * r.variance, 0.0) / n);
+	return r;
+}
+
+static double directions_of(lobe_uint from) { return from >= LOBE_SAMPLE_BOTH_BALANCE ? 2.0 : 1.0; }
+
+/* The least loss of all techniques and its error, against that of the one given. */
+static double regret(const question *q, lobe_uint strategy, lobe_uint from, uint32_t stream, double *error)
+{
+	double least = HUGE_VAL, least_error = 0.0;
+	const spread own = spread_of(q, strategy, from, stream);
+	const spread truth = spread_of(q, LOBE_STRATEGY_VISIBLE, LOBE_SAMPLE_BOTH_BALANCE, stream);
+	const double n = samples();
+	for (lobe_uint f = LOBE_SAMPLE_LOBE; f <= LOBE_SAMPLE_BOTH_POWER; f++)
+		for (lobe_uint k = 0; k <= LOBE_STRATEGY_LAST; k++) {
+			if ((f != LOBE_SAMPLE_LOBE && k != LOBE_STRATEGY_VISIBLE && k != LOBE_STRATEGY_BOUNDED_CAP) ||
+			    (f == LOBE_SAMPLE_LIGHT && k != LOBE_STRATEGY_VISIBLE) ||
+			    (k >= LOBE_STRATEGY_VISIBLE_SLOPES && k <= LOBE_STRATEGY_VISIBLE_CAP))
+				continue;
+			const spread s = spread_of(q, k, f, stream);
+			const double loss = s.variance * directions_of(f);
+			/* What has not found the sun seems to have hardly any variance; its mean tells. */
+			const int found = fabs(s.mean - truth.mean) < 5.0 * sqrt((s.variance + truth.variance) / n);
+			if (found && loss < least) {
+				least = loss;
+				least_error = s.error / s.variance;
+			}
+		}
+	*error = hypot(least_error, own.error / own.variance);
+	return own.variance * directions_of(from) / least;
+}
+
+static void test_recommended_is_about_the_best(void)
+{
+	double worst = 0.0, off = 0.0;
+	for (int i = 0; i < QUESTIONS; i++) {
+		const question q = question_at(i);
+		const lobe_recommendation r = lobe_recommend_strategy(surface_of(&q), direction(q.z, 0.0), q.light,
+								      lobe_recommend_cost_samples());
+		double error;
+		const double lost = regret(&q, r.strategy, r.from, 60u + (uint32_t)i, &error);
+		const spread s = spread_of(&q, r.strategy, r.from, 60u + (uint32_t)i);
+		const double deviation = sqrt(s.variance) / s.mean;
+		printf("  %-32s from %u, strategy %u: %.3f +- %.3f times the least loss, deviation %.4f, expected "
+		       "%.4f\n",
+		       q.what, r.from, r.strategy, lost, error, deviation, (double)r.deviation);
+		worst = larger(worst, lost - 3.0 * error);
+		off = larger(off, fabs((double)r.deviation / deviation - 1.0) - 1.5 * s.error / s.variance);
+		if (q.from >= 0)
+			TEST_ASSERT_EQUAL_INT_MESSAGE(q.from, (int)r.from, q.what);
+		if (q.strategy >= 0)
+			TEST_ASSERT_EQUAL_INT_MESSAGE(q.strategy, (int)r.strategy, q.what);
+	}
+	measured("loss of what is recommended over the least", worst, 1.05);
+	measured("expected standard deviation off the measured one", off, 0.1);
+	/* The same looks find what is not the best. */
+	double error;
+	question q = question_at(0);
+	TEST_ASSERT_TRUE(regret(&q, LOBE_STRATEGY_VISIBLE, LOBE_SAMPLE_LOBE, 90u, &error) > 1.05 + 3.0 * error);
+	q = question_at(5);
+	TEST_ASSERT_TRUE(regret(&q, LOBE_STRATEGY_BOUNDED_CAP, LOBE_SAMPLE_BOTH_BALANCE, 91u, &error) >
+			 1.05 + 3.0 * error);
+}
+
+/* Costs count: what is twice as expensive has to be twice as good. */
+static void test_cost_decides(void)
+{
+	const question q = question_at(0);
+	lobe_recommend_cost cost = lobe_recommend_cost_samples();
+	cost.lobe[LOBE_STRATEGY_BOUNDED_CAP] = 100.0f;
+	const lobe_recommendation r = lobe_recommend_strategy(surface_of(&q), direction(q.z, 0.0), q.light, cost);
+	TEST_ASSERT_TRUE(r.strategy != LOBE_STRATEGY_BOUNDED_CAP);
+}
+
+/* Corners: an answer, and a finite deviation. */
+static void test_extremes_have_an_answer(void)
+{
+	static const double alphas[] = {1e-4, 1e-2, 1.0}, cosines[] = {1.0, 0.1, 1e-6, 0.0};
+	static const float angles[] = {1e-8f, 6.7e-5f, 6.2f};
+	unsigned bad = 0;
+	for (int a = 0; a < 3; a++)
+		for (int z = 0; z < 4; z++)
+			for (int k = 0; k < 3; k++)
+				for (int where = 0; where < 2; where++) {
+					const lobe_microsurface s = lobe_microsurface_make(
+						lobe_distribution_make(LOBE_NDF_GGX),
+						lobe_linear_stretch((float)alphas[a], (float)alphas[2 - a]));
+					const lobe_light_shape light = lobe_light_shape_disk(
+						where ? aside() : mirrored(cosines[z]), angles[k], where ? 0.5f : 1.0f);
+					const lobe_recommendation r = lobe_recommend_strategy(
+						s, direction(cosines[z], 0.0), light, lobe_recommend_cost_samples());
+					bad += !(r.deviation >= 0.0f && r.deviation <= 3e38f) ||
+					       r.strategy > LOBE_STRATEGY_LAST || r.from > LOBE_SAMPLE_BOTH_POWER;
+				}
+	TEST_ASSERT_EQUAL_UINT(0, bad);
+	/* Behind the surface nothing is seen, and no number is made up. */
+	const lobe_microsurface s =
+		lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), lobe_linear_stretch(0.3f, 0.3f));
+	const lobe_recommendation r = lobe_recommend_strategy(s, direction(-0.5, 0.0), lobe_light_shape_sky(0.0f),
+							      lobe_recommend_cost_samples());
+	TEST_ASSERT_EQUAL_UINT(LOBE_SAMPLE_LIGHT, r.from);
+	TEST_ASSERT_EQUAL_FLOAT(0.0f, r.deviation);
+}
+
+int main(void)
+{
+	UNITY_BEGIN();
+	RUN_TEST(test_draws_follow_the_density);
+	RUN_TEST(test_recommended_is_about_the_best);
+	RUN_TEST(test_cost_decides);
+	RUN_TEST(test_extremes_have_an_answer);
+	return UNITY_END() != 0;
+}
