@@ -262,6 +262,38 @@ figures:
 	@gnuplot bench/figures/figures.gp
 	@echo "out/figures: $$(ls out/figures/*.png | wc -l) figures"
 
+# Error against run time, and stability at the extremes. QUICK=1: in minutes. Everything but the main program is a library,
+# for tests of the studies.
+REPORT_SOURCES := $(filter-out bench/report/main.c,$(wildcard bench/report/*.c))
+REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/common/*.c)) bench/machine.c bench/scenes.c bench/timing.c
+REPORT_OBJECTS := $(patsubst %.c,$(B)/report/%.o,$(REPORT_SOURCES) $(REPORT_COMMON))
+REPORT_LIBS := $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a -lOpenEXRCore -lOpenEXR -lpng -lquadmath $(TEST_LIBS)
+REPORT_CFLAGS := $(TEST_CFLAGS) $(NATIVE) -Iexamples/common -Ibench/report $(shell pkg-config --cflags OpenEXR libpng 2>/dev/null)
+$(B)/report/%.o: %.c $(HEADERS) $(wildcard bench/*.h bench/report/*.h examples/common/*.h tests/*.h)
+	@mkdir -p $(@D)
+	@echo "  cc    $@"
+	$(Q)$(CC) $(REPORT_CFLAGS) -c $< -o $@
+
+$(B)/bench/libreport.a: $(REPORT_OBJECTS) | $(B)/bench
+	@rm -f $@
+	@echo "  ar    $@"
+	$(Q)$(AR) rcs $@ $^
+
+$(B)/bench/report: $(B)/report/bench/report/main.o $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a
+	@echo "  link  $@"
+	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@
+
+REPORT_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_report*.c tests/test_stability*.c))
+$(REPORT_TESTS:=.o): private TEST_CFLAGS += $(NATIVE) -Ibench/report
+$(REPORT_TESTS): $(B)/tests/%: $(B)/tests/%.o $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a
+	@echo "  link  $@"
+	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@
+
+report:
+	@./deps.sh all
+	+@$(MAKE) --no-print-directory $(JOBS) $(B)/bench/report
+	@$(B)/bench/report $(if $(QUICK),--quick) $(OPTIONS)
+
 # Mitsuba 3 beside lobe, in turn; skipped, with a word why, where it cannot be installed. OPTIONS: of bench/peers/mitsuba.py.
 bench-peers: $(B)/bench/throughput
 	@bench/peers/mitsuba.sh $(OPTIONS)
@@ -306,6 +338,7 @@ help:
 		'make bench      throughput, its ceilings and scaling, build times, what pruning saves; out/bench/*.csv' \
 		'make bench-peers  Mitsuba 3 beside lobe (installs it in build/peers); out/bench/peers.csv' \
 		'make figures    D, G1, masking, albedo, visible normals: out/figures/*.png' \
+		'make report     error against run time, stability, furnaces: out/report/report.md; QUICK=1 in minutes' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \
@@ -313,7 +346,7 @@ help:
 		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: FORCE all run test test-long vectors bench bench-peers figures check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench bench-peers figures report check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)

@@ -57,7 +57,7 @@ double bench_memory(void)
 	return (double)sysconf(_SC_PAGESIZE) * 65536.0;
 }
 
-void bench_print_machine(void)
+void bench_print_machine(FILE *to)
 {
 	char text[1024];
 	struct utsname system;
@@ -65,16 +65,16 @@ void bench_print_machine(void)
 	const int known = uname(&system) >= 0;
 	if (!find_line("/proc/cpuinfo", "model name", text, sizeof text))
 		snprintf(text, sizeof text, " %s", known ? system.machine : "unknown");
-	printf("processor %s, %zu online\n", text, bench_processors());
+	fprintf(to, "processor %s, %zu online\n", text, bench_processors());
 	if (known)
-		printf("system     %s %s %s\n", system.sysname, system.release, system.machine);
-	printf("compiler   %s\n", COMPILER);
+		fprintf(to, "system     %s %s %s\n", system.sysname, system.release, system.machine);
+	fprintf(to, "compiler   %s\n", COMPILER);
 	strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", gmtime(&now));
-	printf("date       %s\n", text);
+	fprintf(to, "date       %s\n", text);
 	if (bench_command("git describe --always --dirty --abbrev=12 2>/dev/null", text, sizeof text))
-		printf("commit     %s\n", text);
+		fprintf(to, "commit     %s\n", text);
 	if (bench_command("cut -d' ' -f1-3 /proc/loadavg 2>/dev/null", text, sizeof text))
-		printf("load       %s before the start (processes, mean of the last 1, 5 and 15 minutes)\n", text);
+		fprintf(to, "load       %s before the start (processes, mean of the last 1, 5 and 15 minutes)\n", text);
 }
 
 void bench_progress(const char *what, size_t i, size_t n)
@@ -101,6 +101,6 @@ FILE *bench_create_file(const char *path)
 	}
 	file = fopen(path, "w");
 	if (!file)
-		fprintf(stderr, "throughput: %s: %s\n", path, strerror(errno));
+		fprintf(stderr, "bench: %s: %s\n", path, strerror(errno));
 	return file;
 }

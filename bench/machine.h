@@ -8,7 +8,7 @@
 #include "scenes.h"
 
 /* Processor, compiler, date, commit, and how busy the machine already is. */
-void bench_print_machine(void);
+void bench_print_machine(FILE *to);
 
 /* Bytes of memory that nobody uses. */
 double bench_memory(void);

@@ -138,7 +138,7 @@ int main(int argc, char **argv)
 	const int status = bench_options_parse(&o, argc, argv);
 	if (status != 0)
 		return status == 2 ? 2 : 0;
-	bench_print_machine();
+	bench_print_machine(stdout);
 	const int count = bench_devices_open(devices, o.device);
 	if (count == 0 && o.device)
 		return 2;

@@ -2,8 +2,8 @@
  *
  * A study measures in units that do not depend on each other or on the order in which they run: each appends rows to a
  * CSV, and draws its random numbers from counters, so that the rows are the same whatever the number of threads. A unit's
- * rows are kept in out/report/data/<study>/ under a key of all that they follow from - the library's source, the study's
- * own, the settings, and for timings the machine - so that a run does only what is not there yet, and an interrupted one
+ * rows are kept in out/report/data/<study>/ under a key of all that they follow from - the library's source, that of the
+ * section (bench/report/<section>*), the settings, and for timings the machine - so that a run does only what is not there yet, and an interrupted one
  * goes on where it stopped. When all units are there the rows become out/report/<study>.csv, and the section is written
  * from them alone.
  *
@@ -15,15 +15,10 @@
 
 #include <stddef.h>
 
-/* For each file by the Makefile: a checksum of bench/report/<section>*, so that a study runs again when it changes. */
-#ifndef REPORT_KEY
-#define REPORT_KEY "0"
-#endif
-
 #if defined(__GNUC__)
-#define REPORT_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define REPORT_PRINTF(at, first) __attribute__((format(printf, at, first)))
 #else
-#define REPORT_PRINTF(format, first)
+#define REPORT_PRINTF(at, first)
 #endif
 
 /* --- studies ------------------------------------------------------------------------------------------------------ */
@@ -34,7 +29,6 @@ void report_row(report_rows *rows, const char *format, ...) REPORT_PRINTF(2, 3);
 
 typedef struct {
 	const char *name;    /* of its files */
-	const char *key;     /* REPORT_KEY */
 	const char *columns; /* the CSV's first line; no cell has a comma */
 	int timed;           /* measures time: its units run one after another on a machine that is otherwise idle */
 	/* quick: the report in minutes instead of an hour. Fewer samples and cases, the same questions. */

@@ -1,0 +1,128 @@
+/* page.c - the report's Markdown. */
+#define _POSIX_C_SOURCE 200809L
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../machine.h"
+#include "lobe/lobe.h"
+#include "page.h"
+#include "units.h"
+
+static void add(report_rows *rows, const char *format, ...) REPORT_PRINTF(2, 3);
+static void add(report_rows *rows, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	report_rows_print(rows, format, arguments);
+	va_end(arguments);
+}
+
+void report_finding(report_page *page, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	add(&page->findings, "- ");
+	report_rows_print(&page->findings, format, arguments);
+	add(&page->findings, " ([%s](#%s))\n", page->section, page->section);
+	va_end(arguments);
+}
+
+void report_text(report_page *page, const char *format, ...)
+{
+	va_list arguments;
+	va_start(arguments, format);
+	report_rows_print(&page->text, format, arguments);
+	va_end(arguments);
+}
+
+void report_figure(report_page *page, const char *file, const char *format, ...)
+{
+	va_list arguments;
+	add(&page->text, "\n![](%s)\n\n", file);
+	va_start(arguments, format);
+	report_rows_print(&page->text, format, arguments);
+	va_end(arguments);
+	add(&page->text, " <sub>(`%s --only %s`)</sub>\n\n", page->command, page->section);
+}
+
+void *report_open(const char *file)
+{
+	char path[512];
+	snprintf(path, sizeof path, REPORT_FOLDER "/%s", file);
+	FILE *f = bench_create_file(path);
+	if (!f)
+		exit(1);
+	return f;
+}
+
+void report_gnuplot(report_page *page, const char *script, const char *definitions)
+{
+	char command[2048];
+	if (system("command -v gnuplot >/dev/null 2>&1") != 0) {
+		if (!page->gnuplot_missing)
+			fputs("report: no gnuplot here: the plots are left out\n", stderr);
+		page->gnuplot_missing = 1;
+		return;
+	}
+	/* The scripts are beside this file; the folder of the CSVs is where they run. */
+	snprintf(command, sizeof command, "cd " REPORT_FOLDER " && gnuplot -e \"%s\" ../../bench/report/%s",
+		 definitions ? definitions : "", script);
+	if (system(command) != 0) {
+		fprintf(stderr, "report: gnuplot failed: %s\n", command);
+		exit(1);
+	}
+}
+
+void report_page_section(report_page *page, const report_section *section)
+{
+	page->section = section->name;
+	add(&page->text, "\n<a id=\"%s\"></a>\n\n## %s\n\n", section->name, section->title);
+	add(&page->text, "Raw data:");
+	for (int i = 0; i < REPORT_STUDIES_MAX && section->studies[i]; i++)
+		add(&page->text, "%s [%s.csv](%s.csv)", i ? "," : "", section->studies[i]->name,
+		    section->studies[i]->name);
+	add(&page->text, "; all of it by `%s --only %s`.\n\n", page->command, section->name);
+}
+
+/* The devices that the section's timings are of. */
+static void print_devices(FILE *to)
+{
+	size_t opencl = 0;
+	lobe_device_count("opencl", &opencl);
+	for (size_t i = 0; i <= opencl; i++) {
+		char label[32] = "native";
+		lobe_device *device;
+		if (i)
+			snprintf(label, sizeof label, "opencl:%zu", i - 1);
+		if (lobe_device_open(&device, label) != LOBE_OK) {
+			fprintf(to, "%-10s none: %s\n", label, lobe_error_message());
+			continue;
+		}
+		fprintf(to, "%-10s %s\n", label, lobe_device_name(device));
+		lobe_device_close(device);
+	}
+	if (opencl == 0)
+		fprintf(to, "opencl     no device\n");
+}
+
+void report_page_write(report_page *page, int quick)
+{
+	FILE *to = report_open("report.md");
+	fprintf(to, "# lobe: error against run time, and stability at the extremes\n\n");
+	if (quick)
+		fprintf(to, "**The quick form**: fewer samples and cases, the same questions; `make report` without "
+			    "`QUICK=1` "
+			    "asks them whole.\n\n");
+	fprintf(to, "```\n");
+	bench_print_machine(to);
+	print_devices(to);
+	fprintf(to, "```\n\n## Findings\n\nEach figure is computed from the rows of its section.\n\n%s",
+		page->findings.text ? page->findings.text : "");
+	fprintf(to, "%s", page->text.text ? page->text.text : "");
+	if (fclose(to) != 0) {
+		fprintf(stderr, "report: " REPORT_FOLDER "/report.md: %s\n", strerror(errno));
+		exit(1);
+	}
+}
