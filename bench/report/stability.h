@@ -92,8 +92,9 @@ stability_result stability_measure(const stability_case *c, stability_verb verb)
  * is off, in floors. 0 for what only the double build answers. */
 double stability_own_error(const stability_case *c, stability_verb verb, const stability_result *r);
 
-/* error/floor; and with floor_of_one. 0 for what is undetermined, tiny or undefined in the second. */
+/* error/floor; the same, but 0 for what is undetermined or tiny; and that with floor_of_one. */
 double stability_ratio(const stability_result *r);
+double stability_ratio_determined(const stability_result *r);
 double stability_ratio_of_one(const stability_result *r);
 
 enum { STABILITY_LIMIT = 16 };
@@ -133,5 +134,15 @@ stability_case stability_ascend(stability_measure_ratio ratio, stability_case c,
 
 /* The parameters that c's answer depends on, as places in c.parameter; and c as text: hexadecimal floats, a space apart. */
 size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS]);
+void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size);
+
+/* Every lobe of lobes.def. */
+enum { STABILITY_LOBES = 0
+#define LOBE_X(NAME, name, value) +1
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+extern const lobe_uint stability_kinds[STABILITY_LOBES];
+extern const char *const stability_lobe_names[STABILITY_LOBES];
 
 #endif

@@ -145,8 +145,10 @@ static double descend(const gsl_vector *v, void *context)
 {
 	ascent *a = context;
 	stability_case c;
-	if (!place(a, v, &c))
+	if (!place(a, v, &c)) {
+		a->tried++;
 		return 100.0;
+	}
 	return -log(try(a, &c) + 1e-3);
 }
 

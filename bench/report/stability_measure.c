@@ -1,11 +1,22 @@
 /* stability_measure.c - one case: the library's result beside the exact one and beside what the inputs allow. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "stability_reference.h"
 
 const char *const stability_verb_names[STABILITY_VERBS] = {"eval", "pdf", "weight"};
+const lobe_uint stability_kinds[STABILITY_LOBES] = {
+#define LOBE_X(NAME, name, value) value,
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+const char *const stability_lobe_names[STABILITY_LOBES] = {
+#define LOBE_X(NAME, name, value) #name,
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
 const char *const stability_class_names[STABILITY_CLASSES] = {"plain", "undetermined", "tiny", "of one"};
 
 static lobe_vec3 vec3(const float w[3]) { return lobe_vec3_make(w[0], w[1], w[2]); }
@@ -295,7 +306,7 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 	r.ulp = 2.0 * (double)(exact == 0.0L ? 0x1p-150L : stability_half_ulp(exact));
 	r.floor = fmax((double)sqrtl(directions + parameters), 0.5 * r.ulp);
 	r.floor_directions = (double)sqrtl(directions);
-	r.floor_of_one = r.error > STABILITY_LIMIT * r.floor ? fmax(r.floor, of_one(c, q, x)) : r.floor;
+	r.floor_of_one = r.error > r.floor ? fmax(r.floor, of_one(c, q, x)) : r.floor;
 	return r;
 }
 
@@ -318,6 +329,11 @@ double stability_ratio(const stability_result *r) { return r->defined ? r->error
 static int is_tiny(const stability_result *r) { return r->exact < 1e-30 && r->value < 1e-30; }
 static int is_undetermined(const stability_result *r) { return !(r->floor < 0.1 * r->exact); }
 
+double stability_ratio_determined(const stability_result *r)
+{
+	return is_tiny(r) || is_undetermined(r) ? 0.0 : stability_ratio(r);
+}
+
 double stability_ratio_of_one(const stability_result *r)
 {
 	return r->defined && !is_tiny(r) && !is_undetermined(r) ? r->error / r->floor_of_one : 0.0;
@@ -331,4 +347,24 @@ stability_class stability_explain(const stability_result *r)
 	       : is_undetermined(r) ? STABILITY_UNDETERMINED
 	       : r->error <= STABILITY_LIMIT * r->floor_of_one ? STABILITY_OF_ONE
 							       : STABILITY_PLAIN;
+}
+
+void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size)
+{
+	int at[CASE_PARAMETERS];
+	const size_t n = stability_parameters_of(c, at);
+	const int samples = verb == STABILITY_WEIGHT || is_delta_only(c->kind);
+	const float *second = samples ? c->u : c->wi;
+	size_t used = (size_t)snprintf(text, size, "wo %a %a %a %s %a %a %a", (double)c->wo[0], (double)c->wo[1],
+				       (double)c->wo[2], samples ? "u" : "wi", (double)second[0], (double)second[1],
+				       (double)second[2]);
+	for (size_t k = 0; k < n && used < size; k++)
+		used += (size_t)snprintf(text + used, size - used, " p%d %a", at[k], c->parameter[at[k]]);
+	/* What a comparison lobe is made of, and which way light is counted. */
+	if (c->kind >= LOBE_KIND_MICROFACET_CONDUCTOR && used < size)
+		used += (size_t)snprintf(text + used, size - used, " ndf %g masking %g joint %g across %g strategy %g",
+					 c->parameter[8], c->parameter[15], c->parameter[16], c->parameter[17],
+					 c->parameter[18]);
+	if (used < size)
+		snprintf(text + used, size - used, " channel %d", c->channel);
 }
