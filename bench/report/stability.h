@@ -42,11 +42,13 @@ void stability_draw_anywhere(stability_case *c, uint64_t n); /* wi without a loo
 lobe_bsdf stability_bsdf(const stability_case *c);
 
 /* What is asked of a reference. reflects: the event of a sample of a delta lobe; delta: refraction is one (a property of
- * the parameters); straight: the sample is that one; white: as if everything were reflected or transmitted. */
+ * the parameters); straight: the sample is that one; white: as if everything were reflected or transmitted; nudge: added to
+ * the cosine to the facet. */
 typedef struct {
 	lobe_uint kind;
 	stability_verb verb;
 	int channel, reflects, delta, straight, white;
+	double nudge;
 } stability_question;
 
 /* 1: the textbook (stability_textbook.h) has the lobe with these parameters; 0: only the double build does. */
@@ -61,8 +63,9 @@ typedef enum {
 	/* Below 1e-30: factors underflow on the way. The error is below 1e-30 too. */
 	STABILITY_TINY,
 	/* A reflectance or transmittance R that its header (core/fresnel.h for metals, fresnel_schlick.h, airy.h) promises to some
-	 * roundings of 1, not of itself: with R's error counted in units of 2^-24 (films: 2^-22, times a quarter of an index above 4) the ratio is at most 16. So
-	 * for sums over facets (lobes/microfacet_diffuse.h), whose cosines are exact to a rounding of 1. */
+	 * roundings of 1, not of itself: with R's error counted in units of 2^-24 (films: 2^-22, times a quarter of an index above 4) the ratio is at most 16. Also
+	 * where the cosine to the facet that it is of, rounded at 1, decides: light leaves eta = 1000 through a cone of which
+	 * 1 - cos is 5e-7. So for sums over facets (lobes/microfacet_diffuse.h), whose cosines are exact to a rounding of 1. */
 	STABILITY_OF_ONE,
 	STABILITY_CLASSES
 } stability_class;

@@ -97,7 +97,7 @@ static double moved(lobe_uint kind, int k, double old, double log_factor)
 	else if (film && k == 2)
 		x = within(x, 0.0, 1e6);
 	else if (film && k == 3)
-		x = within(x, 1.0, 4.0);
+		x = within(x, 1e-3, 1e3);
 	else if (k < 2)
 		x = colour && kind != LOBE_KIND_GGX_SCHLICK && !free ? within(x, 0.0, 1.0) : within(x, free ? 1e-6 : 1e-4, 1.0);
 	else if (k >= 11)
@@ -107,6 +107,15 @@ static double moved(lobe_uint kind, int k, double old, double log_factor)
 	else
 		x = within(x, k >= 5 ? 0.0 : 1e-3, 100.0);
 	return (double)(float)x;
+}
+
+/* Films: not rarer than both sides, nor of an index that no film has. */
+static int in_domain(const stability_case *c)
+{
+	const double *p = c->parameter;
+	if (c->kind == LOBE_KIND_IRIDESCENT_CONDUCTOR)
+		return p[3] >= 1.0 && p[3] <= 4.0;
+	return c->kind != LOBE_KIND_IRIDESCENT_DIELECTRIC || (p[3] >= fmin(p[4], 1.0) && p[3] <= 4.0 * fmin(p[4], 1.0));
 }
 
 static int place(const ascent *a, const gsl_vector *v, stability_case *c)
@@ -145,7 +154,7 @@ static double descend(const gsl_vector *v, void *context)
 {
 	ascent *a = context;
 	stability_case c;
-	if (!place(a, v, &c)) {
+	if (!place(a, v, &c) || !in_domain(&c)) {
 		a->tried++;
 		return 100.0;
 	}
@@ -208,7 +217,7 @@ static void climb(ascent *a, unsigned steps, uint64_t seed)
 			o += (double)c.wo[k] * (double)c.wo[k];
 			i += (double)c.wi[k] * (double)c.wi[k];
 		}
-		if (fabs(o - 1.0) < 1e-6 && fabs(i - 1.0) < 1e-6)
+		if (fabs(o - 1.0) < 1e-6 && fabs(i - 1.0) < 1e-6 && in_domain(&c))
 			try(a, &c);
 	}
 }

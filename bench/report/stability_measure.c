@@ -272,8 +272,15 @@ static double of_one(const stability_case *c, stability_question q, const long d
 	default:
 		break;
 	}
+	const long double exact = stability_exact(q, x);
+	long double moved = 0.0L;
+	for (int side = -1; side <= 1; side += 2) {
+		q.nudge = side * 0x1p-24;
+		moved = fmaxl(moved, fabsl(stability_exact(q, x) - exact));
+	}
+	q.nudge = 0.0;
 	q.white = 1;
-	return (double)fabsl(stability_exact(q, x)) * 0x1p-24;
+	return (double)fmaxl(moved, fabsl(stability_exact(q, x)) * 0x1p-24L);
 }
 
 stability_result stability_measure_of(stability_lobe lobe, const stability_case *c, stability_verb verb)

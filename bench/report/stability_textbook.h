@@ -230,13 +230,13 @@ static REAL REAL_(glass)(stability_question q, const REAL *wo, const REAL *wi, c
 		return q.verb == STABILITY_WEIGHT ? scale : 0;
 	if (i[2] > 0) {
 		const REAL_(facet) f = REAL_(reflection)(s, o, i, linear && p[16] == LOBE_JOINT_SEPARABLE);
-		const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(fresnel)(REAL_(at_most_1)(f.cosine), e);
+		const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(fresnel)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
 		return q.verb == STABILITY_WEIGHT ? f.weight : share * (q.verb == STABILITY_PDF ? f.pdf : f.eval);
 	}
 	if (q.delta)
 		return 0;
 	const REAL_(facet) f = REAL_(refraction)(s, o, i, e, 1);
-	const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(transmittance)(f.cosine, e);
+	const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(transmittance)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
 	return q.verb == STABILITY_WEIGHT ? scale * f.weight
 	       : q.verb == STABILITY_PDF  ? share * f.pdf
 					  : share * scale * f.eval;
