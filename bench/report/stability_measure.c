@@ -1,0 +1,377 @@
+/* stability_measure.c - one case: the library's result beside the exact one and beside what the inputs allow. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "stability_reference.h"
+
+const char *const stability_verb_names[STABILITY_VERBS] = {"eval", "pdf", "weight"};
+const lobe_uint stability_kinds[STABILITY_LOBES] = {
+#define LOBE_X(NAME, name, value) value,
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+const char *const stability_lobe_names[STABILITY_LOBES] = {
+#define LOBE_X(NAME, name, value) #name,
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+};
+const char *const stability_class_names[STABILITY_CLASSES] = {"plain", "undetermined", "tiny", "of one"};
+
+static lobe_vec3 vec3(const float w[3]) { return lobe_vec3_make(w[0], w[1], w[2]); }
+
+static int is_delta_only(lobe_uint kind)
+{
+	return kind == LOBE_KIND_MIRROR || kind == LOBE_KIND_SMOOTH_CONDUCTOR || kind == LOBE_KIND_SMOOTH_DIELECTRIC ||
+	       kind == LOBE_KIND_THIN_DIELECTRIC;
+}
+
+int stability_is_textbook(const stability_case *c)
+{
+	const double *p = c->parameter;
+	switch (c->kind) {
+	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
+	case LOBE_KIND_IRIDESCENT_DIELECTRIC:
+	case LOBE_KIND_MICROFACET_DIFFUSE:
+		return 0;
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		return (p[8] == LOBE_NDF_GGX || p[8] == LOBE_NDF_BECKMANN) && p[15] == LOBE_MASKING_SMITH &&
+		       p[16] <= LOBE_JOINT_SEPARABLE && p[17] == LOBE_ACROSS_SEPARABLE &&
+		       p[18] == LOBE_STRATEGY_VISIBLE && p[19] == LOBE_FRESNEL_EXACT;
+	default:
+		return 1;
+	}
+}
+
+/* Refraction by this lobe is a delta event, as its parameters have it. */
+static int refraction_is_delta(const lobe_bsdf *b)
+{
+	switch (b->kind) {
+	case LOBE_KIND_GGX_DIELECTRIC:
+		return b->as.ggx_dielectric.delta != 0u;
+	case LOBE_KIND_BECKMANN_DIELECTRIC:
+		return b->as.beckmann_dielectric.delta != 0u;
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		return b->as.microfacet_dielectric.delta != 0u;
+	default:
+		return 0;
+	}
+}
+
+static double channel_of(lobe_rgb f, int channel) { return (double)(channel == 0 ? f.r : channel == 1 ? f.g : f.b); }
+
+double stability_library(const stability_case *c, stability_verb verb)
+{
+	const lobe_bsdf b = stability_bsdf(c);
+	if (verb == STABILITY_WEIGHT || (verb == STABILITY_PDF && is_delta_only(c->kind))) {
+		const lobe_sample s = lobe_bsdf_sample(b, vec3(c->wo), vec3(c->u));
+		return verb == STABILITY_PDF ? (double)s.pdf : channel_of(s.weight, c->channel);
+	}
+	return verb == STABILITY_PDF ? (double)lobe_bsdf_pdf(b, vec3(c->wo), vec3(c->wi))
+				     : channel_of(lobe_bsdf_eval(b, vec3(c->wo), vec3(c->wi)), c->channel);
+}
+
+size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS])
+{
+	const int ch = c->channel;
+	const int rough[] = {0, 1, 2 + ch, 5 + ch}, glass[] = {0, 1, 2}, colour[] = {ch}, metal[] = {ch, 3 + ch}, index[] = {0};
+	const int film_metal[] = {0, 1, 2, 3, 4 + ch, 7 + ch}, film_glass[] = {0, 1, 2, 3, 4};
+	const int any_metal[] = {0, 1, 11, 12, 13, 14, 2 + ch, 5 + ch}, any_glass[] = {0, 1, 11, 12, 13, 14, 2};
+	const int diffuse[] = {0, 1, 11, 12, 13, 14, 2 + ch};
+	const int *list = index;
+	size_t length = 1;
+#define LIST(name) list = name, length = sizeof name / sizeof *name
+	switch (c->kind) {
+	case LOBE_KIND_LAMBERT:
+	case LOBE_KIND_MIRROR:
+		LIST(colour);
+		break;
+	case LOBE_KIND_GGX_CONDUCTOR:
+	case LOBE_KIND_BECKMANN_CONDUCTOR:
+	case LOBE_KIND_GGX_SCHLICK:
+		LIST(rough);
+		break;
+	case LOBE_KIND_GGX_DIELECTRIC:
+	case LOBE_KIND_BECKMANN_DIELECTRIC:
+		LIST(glass);
+		break;
+	case LOBE_KIND_SMOOTH_CONDUCTOR:
+		LIST(metal);
+		break;
+	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
+		LIST(film_metal);
+		break;
+	case LOBE_KIND_IRIDESCENT_DIELECTRIC:
+		LIST(film_glass);
+		break;
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		LIST(any_metal);
+		break;
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		LIST(any_glass);
+		break;
+	case LOBE_KIND_MICROFACET_DIFFUSE:
+		LIST(diffuse);
+		break;
+	default:
+		break;
+	}
+#undef LIST
+	for (size_t k = 0; k < length; k++)
+		at[k] = list[k];
+	return length;
+}
+
+/* The places in x of what c's answer depends on continuously: of a delta lobe wo alone. */
+static size_t inputs_of(const stability_case *c, int at[STABILITY_INPUTS])
+{
+	int parameters[CASE_PARAMETERS];
+	const size_t length = stability_parameters_of(c, parameters);
+	size_t n = 0;
+	for (int k = 0; k < (is_delta_only(c->kind) ? 3 : 6); k++)
+		at[n++] = k;
+	for (size_t k = 0; k < length; k++)
+		at[n++] = 6 + parameters[k];
+	return n;
+}
+
+long double stability_half_ulp(long double x)
+{
+	int e;
+	if (x == 0.0L)
+		return 0.0L;
+	frexpl(x, &e);
+	return ldexpl(1.0L, e - 25 < -150 ? -150 : e - 25);
+}
+
+static long double answer(int textbook, stability_question q, const long double *x)
+{
+	return textbook ? stability_exact(q, x) : (long double)stability_double_build(q, x);
+}
+
+/* x moved to a place where the question has no meaning: a film that is thinner than both sides. */
+static int outside(lobe_uint kind, const long double *x)
+{
+	if (kind == LOBE_KIND_IRIDESCENT_CONDUCTOR)
+		return x[6 + 3] < 1.0L;
+	return kind == LOBE_KIND_IRIDESCENT_DIELECTRIC && x[6 + 3] < (x[6 + 4] < 1.0L ? x[6 + 4] : 1.0L);
+}
+
+/* A tilted surface that shows less of itself than a float can say: of widths of Beckmann's, all of it hides behind itself.
+ * There is nothing to divide by, and results are 0. */
+static int is_invisible(const stability_case *c, const lobe_bsdf *b, const float *wi)
+{
+	const lobe_real least = 1e-18f, side = c->wo[2] > 0.0f ? 1.0f : -1.0f;
+	switch (b->kind) {
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		return lobe_see(b->as.microfacet_conductor.surface, vec3(c->wo), side).sigma < least;
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		return lobe_see(b->as.microfacet_dielectric.surface, vec3(c->wo), side).sigma < least;
+	case LOBE_KIND_MICROFACET_DIFFUSE:
+		return lobe_see(b->as.microfacet_diffuse.surface, vec3(c->wo), side).sigma < least ||
+		       lobe_see(b->as.microfacet_diffuse.surface, vec3(wi), side).sigma < least;
+	default:
+		return 0;
+	}
+}
+
+/* The question of a case, and its inputs; 0 where there is none. */
+static int ask(const stability_case *c, stability_verb verb, stability_question *q, long double x[STABILITY_INPUTS])
+{
+	const lobe_bsdf b = stability_bsdf(c);
+	const float *wi = c->wi;
+	float sampled[3];
+	memset(q, 0, sizeof *q);
+	q->kind = c->kind;
+	q->verb = verb;
+	q->channel = c->channel;
+	q->delta = refraction_is_delta(&b);
+	if (verb == STABILITY_EVAL && is_delta_only(c->kind))
+		return 0;
+	if (verb == STABILITY_WEIGHT || is_delta_only(c->kind)) {
+		const lobe_sample s = lobe_bsdf_sample(b, vec3(c->wo), vec3(c->u));
+		if (s.event == 0u)
+			return 0;
+		q->reflects = (s.event & LOBE_EVENT_REFLECT) != 0u;
+		q->straight = (s.event & LOBE_EVENT_DELTA) != 0u;
+		/* The double build knows no weight of a delta event. */
+		if (q->straight && !stability_is_textbook(c))
+			return 0;
+		sampled[0] = s.wi.x;
+		sampled[1] = s.wi.y;
+		sampled[2] = s.wi.z;
+		wi = sampled;
+	}
+	if (is_invisible(c, &b, wi))
+		return 0;
+	for (int k = 0; k < 3; k++) {
+		x[k] = (long double)c->wo[k];
+		x[3 + k] = (long double)wi[k];
+	}
+	for (int k = 0; k < CASE_PARAMETERS; k++)
+		x[6 + k] = (long double)c->parameter[k];
+	return 1;
+}
+
+static double diffuse_of_one(const stability_case *c, stability_question q, const long double *x)
+{
+	const lobe_microsurface s = stability_bsdf(c).as.microfacet_diffuse.surface;
+	const float wi[3] = {(float)x[3], (float)x[4], (float)x[5]};
+	const lobe_seen o = lobe_see(s, vec3(c->wo), 1.0f), i = lobe_see(s, vec3(wi), 1.0f);
+	const double cavity = s.masking == LOBE_MASKING_VCAVITY ? 0.5 / (double)o.z + 0.5 / (double)i.z : 0.0;
+	return (double)answer(0, q, x) * (1.0 / (double)o.sigma + 1.0 / (double)i.sigma + cavity) * 0x1p-24;
+}
+
+/* Films have GGX's surface and masking. A film of index n resonates over about n/4 bounces; a weight of its glass is a share
+ * over the mean share. */
+static double film_of_one(const stability_case *c, stability_question q, const long double *x)
+{
+	const int glass = c->kind == LOBE_KIND_IRIDESCENT_DIELECTRIC;
+	const double index = glass ? c->parameter[3] / fmin(c->parameter[4], 1.0) : c->parameter[3];
+	const double unit = 0x1p-22 * fmax(1.0, 0.25 * index);
+	long double bare[STABILITY_INPUTS];
+	memcpy(bare, x, sizeof bare);
+	if (glass) {
+		bare[6 + 2] = x[6 + 4];
+		bare[6 + 3] = x[6 + 5];
+	}
+	stability_question white = q;
+	white.kind = glass ? LOBE_KIND_GGX_DIELECTRIC : LOBE_KIND_GGX_CONDUCTOR;
+	white.white = 1;
+	const double value = (double)stability_exact(white, bare);
+	if (!glass || q.verb != STABILITY_WEIGHT)
+		return unit * value;
+	white.verb = q.verb = STABILITY_PDF;
+	return unit * value * (double)stability_exact(white, bare) / stability_double_build(q, x);
+}
+
+/* What half a rounding of a reflectance of 1 does to the answer. */
+static double of_one(const stability_case *c, stability_question q, const long double *x)
+{
+	long double mirror[STABILITY_INPUTS];
+	switch (c->kind) {
+	case LOBE_KIND_MICROFACET_DIFFUSE:
+		return diffuse_of_one(c, q, x);
+	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
+	case LOBE_KIND_IRIDESCENT_DIELECTRIC:
+		return film_of_one(c, q, x);
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		if (stability_is_textbook(c))
+			break;
+		memcpy(mirror, x, sizeof mirror);
+		mirror[6 + 19] = LOBE_FRESNEL_CONSTANT;
+		for (int k = 2; k < 5; k++)
+			mirror[6 + k] = 1.0L;
+		return stability_double_build(q, mirror) * 0x1p-24;
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		if (!stability_is_textbook(c))
+			return 0.0;
+		break;
+	default:
+		break;
+	}
+	const long double exact = stability_exact(q, x);
+	long double moved = 0.0L;
+	for (int side = -1; side <= 1; side += 2) {
+		q.nudge = side * 0x1p-24;
+		moved = fmaxl(moved, fabsl(stability_exact(q, x) - exact));
+	}
+	q.nudge = 0.0;
+	q.white = 1;
+	return (double)fmaxl(moved, fabsl(stability_exact(q, x)) * 0x1p-24L);
+}
+
+stability_result stability_measure_of(stability_lobe lobe, const stability_case *c, stability_verb verb)
+{
+	stability_result r;
+	stability_question q;
+	long double x[STABILITY_INPUTS], directions = 0.0L, parameters = 0.0L;
+	int at[STABILITY_INPUTS];
+	memset(&r, 0, sizeof r);
+	if (!ask(c, verb, &q, x))
+		return r;
+	const int textbook = stability_is_textbook(c);
+	const long double exact = answer(textbook, q, x);
+	const size_t n = inputs_of(c, at);
+	for (size_t k = 0; k < n; k++) {
+		const long double old = x[at[k]], step = stability_half_ulp(old);
+		long double most = 0.0L;
+		for (int side = -1; side <= 1 && step > 0.0L; side += 2) {
+			x[at[k]] = old + (long double)side * step;
+			if (!outside(c->kind, x))
+				most = fmaxl(most, fabsl(answer(textbook, q, x) - exact));
+		}
+		x[at[k]] = old;
+		*(at[k] < 6 ? &directions : &parameters) += most * most;
+	}
+	r.defined = 1;
+	r.value = lobe(c, verb);
+	r.exact = (double)exact;
+	r.error = (double)fabsl((long double)r.value - exact);
+	r.ulp = 2.0 * (double)(exact == 0.0L ? 0x1p-150L : stability_half_ulp(exact));
+	r.floor = fmax((double)sqrtl(directions + parameters), 0.5 * r.ulp);
+	r.floor_directions = (double)sqrtl(directions);
+	r.floor_of_one = r.error > r.floor ? fmax(r.floor, of_one(c, q, x)) : r.floor;
+	return r;
+}
+
+stability_result stability_measure(const stability_case *c, stability_verb verb)
+{
+	return stability_measure_of(stability_library, c, verb);
+}
+
+double stability_own_error(const stability_case *c, stability_verb verb, const stability_result *r)
+{
+	stability_question q;
+	long double x[STABILITY_INPUTS];
+	if (!ask(c, verb, &q, x) || !stability_is_textbook(c))
+		return 0.0;
+	return (double)fabsl(stability_exacter(q, x) - stability_exact(q, x)) / r->floor;
+}
+
+double stability_ratio(const stability_result *r) { return r->defined ? r->error / r->floor : 0.0; }
+
+static int is_tiny(const stability_result *r) { return r->exact < 1e-30 && r->value < 1e-30; }
+static int is_undetermined(const stability_result *r) { return !(r->floor < 0.1 * r->exact); }
+
+double stability_ratio_determined(const stability_result *r)
+{
+	return is_tiny(r) || is_undetermined(r) ? 0.0 : stability_ratio(r);
+}
+
+double stability_ratio_of_one(const stability_result *r)
+{
+	return r->defined && !is_tiny(r) && !is_undetermined(r) ? r->error / r->floor_of_one : 0.0;
+}
+
+stability_class stability_explain(const stability_result *r)
+{
+	if (!r->defined || r->error <= STABILITY_LIMIT * r->floor)
+		return STABILITY_PLAIN;
+	return is_tiny(r)           ? STABILITY_TINY
+	       : is_undetermined(r) ? STABILITY_UNDETERMINED
+	       : r->error <= STABILITY_LIMIT * r->floor_of_one ? STABILITY_OF_ONE
+							       : STABILITY_PLAIN;
+}
+
+void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size)
+{
+	int at[CASE_PARAMETERS];
+	const size_t n = stability_parameters_of(c, at);
+	const int samples = verb == STABILITY_WEIGHT || is_delta_only(c->kind);
+	const float *second = samples ? c->u : c->wi;
+	size_t used = (size_t)snprintf(text, size, "wo %a %a %a %s %a %a %a", (double)c->wo[0], (double)c->wo[1],
+				       (double)c->wo[2], samples ? "u" : "wi", (double)second[0], (double)second[1],
+				       (double)second[2]);
+	for (size_t k = 0; k < n && used < size; k++)
+		used += (size_t)snprintf(text + used, size - used, " p%d %a", at[k], c->parameter[at[k]]);
+	/* What a comparison lobe is made of, and which way light is counted. */
+	if (c->kind >= LOBE_KIND_MICROFACET_CONDUCTOR && used < size)
+		used += (size_t)snprintf(text + used, size - used, " ndf %g masking %g joint %g across %g strategy %g",
+					 c->parameter[8], c->parameter[15], c->parameter[16], c->parameter[17],
+					 c->parameter[18]);
+	if (used < size)
+		snprintf(text + used, size - used, " channel %d", c->channel);
+}

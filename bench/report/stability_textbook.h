@@ -1,0 +1,325 @@
+/* stability_textbook.h - lobes as their papers print them, in one wide type. A template without a guard: included once for
+ * each type by stability_reference.c, with
+ *
+ *	REAL			the type
+ *	REAL_(name)		name with the type's suffix
+ *	REAL_SQRT, REAL_EXP, REAL_ERFC, REAL_FABS, REAL_PI
+ *
+ * Nothing here is the library's code or algebra: normalised half vectors, slopes, tangents, Lambda, complex roots, and
+ * cancellation wherever the papers have it, which is what the type's digits are for. tests/textbook.h is the same idea in
+ * double, for what does not cancel.
+ *
+ * Directions come as they are, not quite unit: the half vector is normalised, as the papers say, they are not. So what a
+ * rounding of a direction does to the answer, its length included, is a property of these formulas that
+ * stability_measure.c finds by asking them again. Cosines above 1 count as 1, but to a rough metal, whose formula goes on; of
+ * a reflection the cosine to the facet is the
+ * mean of o.m and i.m, which for a pair of directions of not quite the same length are not one, and at grazing angles not
+ * even near. */
+
+static REAL REAL_(dot)(const REAL a[3], const REAL b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Reflectance of a dielectric; c: cosine on the near side, eta: far index over near index. Walter et al. 2007, eq. 22. */
+static REAL REAL_(fresnel)(REAL c, REAL eta)
+{
+	const REAL g2 = eta * eta - 1 + c * c;
+	if (eta == 1)
+		return 0;
+	if (g2 <= 0)
+		return 1;
+	const REAL g = REAL_SQRT(g2);
+	const REAL s = (g - c) / (g + c);
+	const REAL p = (c * (g + c) - 1) / (c * (g - c) + 1);
+	return s * s * (1 + p * p) / 2;
+}
+
+/* Transmittance: 1 - F, which cancels, so the digits that are left are counted by comparing two types. Without an
+ * interface everything passes, also at c = 0. */
+static REAL REAL_(transmittance)(REAL c, REAL eta) { return 1 - REAL_(fresnel)(c, eta); }
+
+/* |(a - b)/(a + b)|^2 of complex a and b. */
+static REAL REAL_(ratio2)(REAL ar, REAL ai, REAL br, REAL bi)
+{
+	return ((ar - br) * (ar - br) + (ai - bi) * (ai - bi)) / ((ar + br) * (ar + br) + (ai + bi) * (ai + bi));
+}
+
+/* Reflectance of a conductor n + ik: the mean of |r_s|^2 and |r_p|^2, with the complex N cos theta_t = sqrt(N^2 - sin^2) in
+ * the first quadrant. */
+static REAL REAL_(fresnel_conductor)(REAL c, REAL n, REAL k)
+{
+	const REAL re = n * n - k * k - (1 - c * c), im = 2 * n * k;
+	const REAL size = REAL_SQRT(re * re + im * im);
+	/* The larger part from the half angle, the other from the product of the two. */
+	const REAL large = REAL_SQRT((size + REAL_FABS(re)) / 2);
+	const REAL small = large > 0 ? im / (2 * large) : 0;
+	const REAL root_re = re >= 0 ? large : small, root_im = re >= 0 ? small : large;
+	if (n == 1 && k == 0)
+		return 0;
+	return (REAL_(ratio2)(c, 0, root_re, root_im) + REAL_(ratio2)((n * n - k * k) * c, im * c, root_re, root_im)) / 2;
+}
+
+/* Schlick 1994 between f0 and f90. */
+static REAL REAL_(schlick)(REAL c, REAL f0, REAL f90)
+{
+	const REAL m = 1 - c;
+	return f0 + (f90 - f0) * m * m * m * m * m;
+}
+
+/* Slopes s of the surface of width 1 become A s + mean. */
+typedef struct {
+	REAL xx, xy, yx, yy, mean_x, mean_y;
+	int beckmann;
+} REAL_(surface);
+
+/* D(m) = P22(-m.x/m.z, -m.y/m.z)/m.z^4 with P22 that of A^-1 (slope - mean), over |det A|: Heitz 2014, section 5.3, eqs. 80
+ * and 85 where A is diagonal; Dupuy et al. 2013. */
+static REAL REAL_(d)(REAL_(surface) s, const REAL m[3])
+{
+	if (m[2] <= 0)
+		return 0;
+	const REAL det = s.xx * s.yy - s.xy * s.yx;
+	const REAL x = -m[0] / m[2] - s.mean_x, y = -m[1] / m[2] - s.mean_y;
+	const REAL t_x = (s.yy * x - s.xy * y) / det, t_y = (s.xx * y - s.yx * x) / det;
+	const REAL r2 = t_x * t_x + t_y * t_y;
+	const REAL p22 = s.beckmann ? REAL_EXP(-r2) / REAL_PI : 1 / (REAL_PI * (1 + r2) * (1 + r2));
+	return p22 / (REAL_FABS(det) * m[2] * m[2] * m[2] * m[2]);
+}
+
+/* What a direction sees: z, the mean plane's area (0 from its back), and h = |z| Lambda, that of the facets which face away.
+ * Lambda = (sqrt(1 + 1/a^2) - 1)/2, or exp(-a^2)/(2 a sqrt pi) - erfc(a)/2, with a the cotangent over the width in the
+ * direction (Heitz 2014, eqs. 86 and 83), both times |z|. */
+typedef struct {
+	REAL z, h;
+} REAL_(seen);
+
+static REAL_(seen) REAL_(see)(REAL_(surface) s, const REAL w[3])
+{
+	const REAL x = s.xx * w[0] + s.yx * w[1], y = s.xy * w[0] + s.yy * w[1];
+	const REAL z = w[2] - s.mean_x * w[0] - s.mean_y * w[1];
+	const REAL r = REAL_SQRT(x * x + y * y), a = r > 0 ? REAL_FABS(z) / r : 0;
+	REAL_(seen) seen;
+	seen.z = z > 0 ? z : 0;
+	if (r == 0)
+		seen.h = 0;
+	else if (s.beckmann)
+		seen.h = r * REAL_EXP(-a * a) / (2 * REAL_SQRT(REAL_PI)) - REAL_FABS(z) * REAL_ERFC(a) / 2;
+	else
+		seen.h = (REAL_SQRT(r * r + z * z) - REAL_FABS(z)) / 2;
+	return seen;
+}
+
+/* G2 over the mean plane's area as o sees it: 1/(1 + Lambda_o + Lambda_i) on one side (eq. 99), the product of the two G1
+ * where that is asked for, both over z_o. 0 where i sees the mean plane's back. */
+static REAL REAL_(g2_over_cos)(REAL_(seen) o, REAL_(seen) i, int separable)
+{
+	if (!(i.z > 0))
+		return 0;
+	return separable ? i.z / ((o.z + o.h) * (i.z + i.h)) : 1 / (o.z + o.h + o.z * i.h / i.z);
+}
+
+/* Reflection and refraction by a facet: reflectance f or transmittance of it given, value and density and weight of what it
+ * makes of the light. */
+typedef struct {
+	REAL eval, pdf, weight; /* eval: of reflectance 1; pdf: the event being chosen with probability 1; weight: their ratio */
+	REAL cosine;
+	int there;
+} REAL_(facet);
+
+/* o and i above the surface. Cook and Torrance 1982, Walter et al. 2007, eq. 20; Heitz and d'Eon 2014 for the density. */
+static REAL_(facet) REAL_(reflection)(REAL_(surface) s, const REAL o[3], const REAL i[3], int separable)
+{
+	REAL_(facet) f = {0, 0, 0, 0, 0};
+	REAL h[3];
+	for (int k = 0; k < 3; k++)
+		h[k] = o[k] + i[k];
+	const REAL length = REAL_SQRT(REAL_(dot)(h, h));
+	if (!(length > 0) || !(o[2] > 0) || !(i[2] > 0))
+		return f;
+	for (int k = 0; k < 3; k++)
+		h[k] /= length;
+	const REAL_(seen) seen_o = REAL_(see)(s, o), seen_i = REAL_(see)(s, i);
+	const REAL d = REAL_(d)(s, h), g = REAL_(g2_over_cos)(seen_o, seen_i, separable);
+	/* One number where directions are unit. */
+	const REAL sigma = seen_o.z + seen_o.h, c = (REAL_(dot)(o, h) + REAL_(dot)(i, h)) / 2;
+	f.there = 1;
+	f.cosine = c;
+	f.eval = d * g / 4;
+	f.pdf = d / (4 * sigma);
+	f.weight = g * sigma;
+	return f;
+}
+
+/* o above, i below; e: the far index over the near one. Walter et al. 2007, eqs. 16, 17 and 21, without the scale of
+ * radiance. */
+static REAL_(facet) REAL_(refraction)(REAL_(surface) s, const REAL o[3], const REAL i[3], REAL e, int separable)
+{
+	REAL_(facet) f = {0, 0, 0, 0, 0};
+	REAL h[3], back[3];
+	for (int k = 0; k < 3; k++) {
+		h[k] = -(o[k] + e * i[k]);
+		back[k] = -i[k];
+	}
+	const REAL length = REAL_SQRT(REAL_(dot)(h, h));
+	if (!(length > 0) || !(o[2] > 0) || !(i[2] < 0))
+		return f;
+	const REAL up = h[2] < 0 ? -1 : 1;
+	for (int k = 0; k < 3; k++)
+		h[k] *= up / length;
+	const REAL oh = REAL_(dot)(o, h), ih = REAL_(dot)(i, h);
+	if (!(oh > 0) || !(ih < 0))
+		return f;
+	const REAL_(seen) seen_o = REAL_(see)(s, o), seen_i = REAL_(see)(s, back);
+	const REAL d = REAL_(d)(s, h), g = REAL_(g2_over_cos)(seen_o, seen_i, separable);
+	const REAL sigma = seen_o.z + seen_o.h, den = e * ih + oh;
+	f.there = 1;
+	f.cosine = oh > 1 ? 1 : oh;
+	f.eval = -ih * oh * e * e * g * d / (den * den);
+	f.pdf = -ih * oh * e * e * d / (den * den * sigma);
+	f.weight = g * sigma;
+	return f;
+}
+
+/* --- the lobes: parameters as in tests/cases_make.h --------------------------------------------------------------- */
+
+static REAL_(surface) REAL_(surface_of)(lobe_uint kind, const REAL *p)
+{
+	const int linear = kind == LOBE_KIND_MICROFACET_CONDUCTOR || kind == LOBE_KIND_MICROFACET_DIELECTRIC;
+	REAL_(surface) s;
+	s.xx = p[0];
+	s.yy = p[1];
+	s.xy = linear ? p[11] : 0;
+	s.yx = linear ? p[12] : 0;
+	s.mean_x = linear ? p[13] : 0;
+	s.mean_y = linear ? p[14] : 0;
+	s.beckmann = kind == LOBE_KIND_BECKMANN_CONDUCTOR || kind == LOBE_KIND_BECKMANN_DIELECTRIC ||
+		     (linear && p[8] == LOBE_NDF_BECKMANN);
+	return s;
+}
+
+static REAL REAL_(at_most_1)(REAL c) { return c > 1 ? 1 : c; }
+
+static REAL REAL_(opaque)(stability_question q, const REAL *o, const REAL *i, const REAL *p)
+{
+	const int linear = q.kind == LOBE_KIND_MICROFACET_CONDUCTOR;
+	const REAL_(facet) f = REAL_(reflection)(REAL_(surface_of)(q.kind, p), o, i,
+						 linear && p[16] == LOBE_JOINT_SEPARABLE);
+	const REAL a = p[2 + q.channel], b = p[5 + q.channel];
+	if (!f.there)
+		return 0;
+	if (q.verb == STABILITY_PDF)
+		return f.pdf;
+	if (q.white)
+		return q.verb == STABILITY_EVAL ? f.eval : f.weight;
+	return (q.verb == STABILITY_EVAL ? f.eval : f.weight) *
+	       (q.kind == LOBE_KIND_GGX_SCHLICK ? REAL_(schlick)(REAL_(at_most_1)(f.cosine), a, b) : REAL_(fresnel_conductor)(f.cosine, a, b));
+}
+
+/* From below all is seen through the point, and the indices change places. */
+static REAL REAL_(glass)(stability_question q, const REAL *wo, const REAL *wi, const REAL *p)
+{
+	const int linear = q.kind == LOBE_KIND_MICROFACET_DIELECTRIC;
+	const REAL_(surface) s = REAL_(surface_of)(q.kind, p);
+	const REAL side = wo[2] > 0 ? 1 : -1, e = wo[2] > 0 ? p[2] : 1 / p[2];
+	const REAL scale = p[3] == LOBE_TRANSPORT_RADIANCE ? 1 / (e * e) : 1;
+	REAL o[3], i[3];
+	for (int k = 0; k < 3; k++) {
+		o[k] = side * wo[k];
+		i[k] = side * wi[k];
+	}
+	/* Unmasked, through a facet that no one knows any more. */
+	if (q.straight)
+		return q.verb == STABILITY_WEIGHT ? scale : 0;
+	if (i[2] > 0) {
+		const REAL_(facet) f = REAL_(reflection)(s, o, i, linear && p[16] == LOBE_JOINT_SEPARABLE);
+		const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(fresnel)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
+		return q.verb == STABILITY_WEIGHT ? f.weight : share * (q.verb == STABILITY_PDF ? f.pdf : f.eval);
+	}
+	if (q.delta)
+		return 0;
+	const REAL_(facet) f = REAL_(refraction)(s, o, i, e, 1);
+	const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(transmittance)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
+	return q.verb == STABILITY_WEIGHT ? scale * f.weight
+	       : q.verb == STABILITY_PDF  ? share * f.pdf
+					  : share * scale * f.eval;
+}
+
+/* Delta lobes: q.reflects is the sample's event. pdf and weight of it. */
+static REAL REAL_(smooth)(stability_question q, const REAL *wo, const REAL *p)
+{
+	const REAL z = REAL_FABS(wo[2]), c = REAL_(at_most_1)(z);
+	if (q.verb == STABILITY_EVAL || !(z > 0))
+		return 0;
+	if (q.white)
+		return 1;
+	switch (q.kind) {
+	case LOBE_KIND_MIRROR:
+		return q.verb == STABILITY_PDF ? 1 : p[q.channel];
+	case LOBE_KIND_SMOOTH_CONDUCTOR:
+		return q.verb == STABILITY_PDF ? 1 : REAL_(fresnel_conductor)(c, p[q.channel], p[3 + q.channel]);
+	case LOBE_KIND_SMOOTH_DIELECTRIC: {
+		const REAL e = wo[2] > 0 ? p[0] : 1 / p[0];
+		if (q.verb == STABILITY_WEIGHT)
+			return !q.reflects && p[1] == LOBE_TRANSPORT_RADIANCE ? 1 / (e * e) : 1;
+		return q.reflects ? REAL_(fresnel)(c, e) : REAL_(transmittance)(c, e);
+	}
+	default: { /* a pane: both interfaces and all between them */
+		const REAL f = REAL_(fresnel)(c, p[0]);
+		if (q.verb == STABILITY_WEIGHT)
+			return 1;
+		return q.reflects ? 2 * f / (1 + f) : (1 - f) / (1 + f);
+	}
+	}
+}
+
+static REAL REAL_(lobe)(stability_question q, const REAL *wo, const REAL *wi, const REAL *p)
+{
+	switch (q.kind) {
+	case LOBE_KIND_LAMBERT:
+		if (!(wo[2] * wi[2] > 0))
+			return 0;
+		return q.verb == STABILITY_WEIGHT
+			       ? p[q.channel]
+			       : REAL_FABS(wi[2]) / REAL_PI * (q.verb == STABILITY_PDF ? 1 : p[q.channel]);
+	case LOBE_KIND_GGX_CONDUCTOR:
+	case LOBE_KIND_BECKMANN_CONDUCTOR:
+	case LOBE_KIND_GGX_SCHLICK:
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		return REAL_(opaque)(q, wo, wi, p);
+	case LOBE_KIND_GGX_DIELECTRIC:
+	case LOBE_KIND_BECKMANN_DIELECTRIC:
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		return REAL_(glass)(q, wo, wi, p);
+	default:
+		return REAL_(smooth)(q, wo, p);
+	}
+}
+
+/* --- parts, for stability_forms.c: x as stability_part says ------------------------------------------------------- */
+
+static REAL REAL_(part)(stability_part part, const REAL *x)
+{
+	switch (part) {
+	case STABILITY_PART_D: {
+		const REAL_(surface) s = {x[6], 0, 0, x[6], 0, 0, 0};
+		REAL h[3];
+		for (int k = 0; k < 3; k++)
+			h[k] = x[k] + x[3 + k];
+		const REAL length = REAL_SQRT(REAL_(dot)(h, h));
+		for (int k = 0; k < 3; k++)
+			h[k] /= length;
+		return REAL_(d)(s, h);
+	}
+	case STABILITY_PART_LAMBDA: {
+		const REAL_(surface) s = {x[3], 0, 0, x[3], 0, 0, 0};
+		return REAL_(see)(s, x).h / x[2];
+	}
+	case STABILITY_PART_REFRACTION: {
+		const REAL_(surface) s = {x[6], 0, 0, x[6], 0, 0, 0};
+		const REAL_(facet) f = REAL_(refraction)(s, x, x + 3, x[7], 1);
+		return f.there ? REAL_(transmittance)(f.cosine, x[7]) * f.eval / (x[7] * x[7]) : 0;
+	}
+	case STABILITY_PART_CONDUCTOR:
+		return REAL_(fresnel_conductor)(x[0], x[1], x[2]);
+	default:
+		return REAL_(fresnel)(x[0], x[1]);
+	}
+}
