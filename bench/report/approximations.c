@@ -274,7 +274,7 @@ static void fields(report_page *page, const report_table *rows)
 	static const char *const sides[2] = {"same", "across"};
 	static const char *const titles[2] = {"both directions above", "one above, one below (index 1.5)"};
 	char best_name[2][64] = {"", ""};
-	double best[2] = {DBL_MAX, DBL_MAX}, noise = 0.0, separable = 0.0;
+	double best[2] = {DBL_MAX, DBL_MAX}, noise = 0.0, separable = 0.0, height = 0.0;
 	report_text(page,
 		    "### Masking against simulated height fields\n\n"
 		    "Facets with the half vector's slope on explicit Gaussian height fields (Beckmann's distribution; "
@@ -317,13 +317,15 @@ static void fields(report_page *page, const report_table *rows)
 			}
 			if (side == 0 && strcmp(m[k].name, "Smith; separable") == 0)
 				separable = rms;
+			if (side == 0 && strcmp(m[k].name, "Smith; height-correlated") == 0)
+				height = rms;
 		}
 		report_text(page, "\n");
 	}
 	report_finding(page,
-		       "Of simulated Gaussian height fields the nearest joint masking is \"%s\" (RMS %.3f; separable %.3f) on one "
+		       "Of simulated Gaussian height fields the nearest joint masking is \"%s\" (RMS %.3f; height-correlated %.3f, separable %.3f) on one "
 		       "side and \"%s\" across (RMS %.3f); the simulation's standard error is %.4f",
-		       best_name[0], best[0], separable, best_name[1], best[1], noise);
+		       best_name[0], best[0], height, separable, best_name[1], best[1], noise);
 }
 
 static void reals(report_page *page, const summary *all, int n)
@@ -433,7 +435,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		{"across", "Masking, across the surface", "Against the beta function.", " (G2)", NULL},
 		{"density", "D from a table", "Relative, against the analytic distribution.", " (relative)", NULL},
 		{"hidden", "Lambda from a table", "Relative, against the analytic distribution.", " (relative)", NULL},
-		{"visible", "Visible normals from a table", "Albedo estimated by the table's visible normals.", " (albedo)", NULL},
+		{"visible", "Visible normals from a table", "Mean cosine between the view and the visible normals, against the analytic distribution's.", " (mean o.m)", NULL},
 		{"real", "Elementary functions", "In ulp, by random arguments.", " [ulp]", reals},
 	};
 	const report_table *errors = tables[0], *times = tables[1];

@@ -15,7 +15,11 @@ do for [k = 1:6] {
 	title = word("Fresnel,\ dielectric Fresnel,\ conductor Thin\ film Lambda\ of\ Beckmann Masking Masking,\ across", k)
 	set title group
 	set ylabel "RMS error"
+	unset logscale
+	set xrange [*:*]
+	set yrange [*:*]
 	stats PARETO(group) using 2:3 skip 1 nooutput
+	set logscale xy
 	set xrange [STATS_min_x / 1.6 : STATS_max_x * 4]
 	set yrange [STATS_min_y / 4 : STATS_max_y * 4]
 	plot PARETO(group) using ($4 == 1 ? $2 : NaN):3 skip 1 with lines lw 2 lc rgb "#1f77b4", \

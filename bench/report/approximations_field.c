@@ -135,7 +135,7 @@ static int run(int quick, size_t unit, report_rows *rows)
 {
 	const int across = (int)(unit / (ALPHAS * PAIRS));
 	const double alpha = alphas[unit / PAIRS % ALPHAS], *angles = pairs[unit % PAIRS];
-	const uint64_t answers = quick ? 4096u : 131072u;
+	const uint64_t answers = quick ? 16384u : 262144u;
 	const double to = angles[0] * PI / 180.0, ti = angles[1] * PI / 180.0, phi = angles[2] * PI / 180.0;
 	pair p = {{sin(to), 0.0, cos(to)}, {sin(ti) * cos(phi), sin(ti) * sin(phi), cos(ti)}, {0, 0, 0}, alpha};
 	double seen[3] = {0.0, 0.0, 0.0};

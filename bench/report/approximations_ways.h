@@ -24,7 +24,7 @@ APPROXIMATIONS_SET
 #define APPROXIMATIONS_WAYS(WAY, WAY_3, HOST, HOST_3)                                                                  \
 	WAY(LAMBDA, lambda_erf, "erf and exp", 1, lobe_beckmann_hidden(V3(x, LOBE_R(0.0), y)))                         \
 	WAY(LAMBDA, lambda_ierfc, "one polynomial", 0,                                                                 \
-	    lobe_beckmann_t(V3(x, LOBE_R(0.0), y)) - y)                                                                \
+	    LOBE_R(0.5) * (lobe_beckmann_t(V3(x, LOBE_R(0.0), y)) - y))                                                \
 	WAY(LAMBDA, lambda_rational, "Walter's rational", 0, lobe_beckmann_hidden_rational(V3(x, LOBE_R(0.0), y)))     \
 	HOST(LAMBDA, lambda_libm, "textbook form by libm", 0,                                                          \
 	     y *(0.5f * (erff(y / x) - 1.0f) + 0.28209479f * (x / y) * expf(-(y / x) * (y / x))))                      \
@@ -41,8 +41,7 @@ APPROXIMATIONS_SET
 	WAY(CONDUCTOR, conductor_hoffman, "generalised: exponent and dip", 0,                                          \
 	    lobe_fresnel_hoffman(x, p.f0, LOBE_R(1.0), LOBE_R(5.0), p.general))                                        \
 	WAY(CONDUCTOR, conductor_artist, "Gulbrandsen; mapped each call", 0,                                           \
-	    lobe_fresnel_conductor(x, lobe_fresnel_artist(p.f0 + LOBE_R(0x1p-60) * x, p.edge).n,                       \
-				   lobe_fresnel_artist(p.f0 + LOBE_R(0x1p-60) * x, p.edge).k))                         \
+	    approximations_artist(x, p.f0, p.edge))                                                                    \
 	WAY(CONDUCTOR, conductor_constant, "constant", 0, p.f0 + LOBE_R(0.0) * x)                                      \
 	WAY_3(FILM, film_series, "Belcour-Barla series", 0, lobe_thin_film_conductor_rgb(x, p.film, p.n, p.k))         \
 	WAY_3(FILM, film_none, "no film", 0, lobe_fresnel_conductor_rgb(x, p.n, p.k))                                  \
@@ -114,23 +113,48 @@ APPROXIMATIONS_SET
 
 /* Helpers of the expressions: the same text in C and OpenCL C. */
 #define APPROXIMATIONS_HELPERS                                                                                         \
+	/* in the loop, as x is: the mapping belongs to each call */                                                   \
+	LOBE_FN lobe_real approximations_artist(lobe_real x, lobe_real f0, lobe_real edge)                             \
+	{                                                                                                              \
+		const lobe_fresnel_index index = lobe_fresnel_artist(lobe_fma(LOBE_R(0x1p-60), x, f0), edge);          \
+		return lobe_fresnel_conductor(x, index.n, index.k);                                                    \
+	}                                                                                                              \
+	/* without the branches of lobe_masking_g2_over_cos, which would keep a loop from vectorising */              \
+	LOBE_FN lobe_real approximations_g2_plain(lobe_microsurface q, lobe_seen o, lobe_seen i, lobe_seen_facet m)     \
+	{                                                                                                              \
+		const lobe_real k = lobe_masking_width(q);                                                             \
+		const lobe_real both = o.inv_length * i.cosine;                                                        \
+		if (q.masking == LOBE_MASKING_VCAVITY)                                                                 \
+			return lobe_masking_vcavity(o, i, m, 0);                                                       \
+		if (q.masking == LOBE_MASKING_NONE)                                                                    \
+			return LOBE_R(1.0) / o.z;                                                                      \
+		if (q.masking == LOBE_MASKING_IMPLICIT)                                                                \
+			return both;                                                                                   \
+		if (q.masking == LOBE_MASKING_KELEMEN)                                                                 \
+			return both / ((m.o / m.length2) * m.i);                                                       \
+		if (q.masking == LOBE_MASKING_NEUMANN)                                                                 \
+			return both / lobe_max(o.cosine, i.cosine);                                                    \
+		if (q.masking == LOBE_MASKING_DISNEY)                                                                  \
+			return both * lobe_masking_ggx(o, k) * lobe_masking_ggx(i, k);                                 \
+		return both * lobe_masking_schlick(o, k) * lobe_masking_schlick(i, k);                                 \
+	}                                                                                                              \
 	LOBE_FN lobe_real approximations_g2(lobe_microsurface surface, lobe_uint masking, lobe_uint joint,             \
 					    lobe_real oz, lobe_real ox, lobe_real iz, lobe_real ix, lobe_real iy)      \
 	{                                                                                                              \
-		const lobe_vec3 o = lobe_vec3_make(ox, LOBE_R(0.0), oz);                                               \
-		const lobe_vec3 i = lobe_vec3_make(ix, iy, iz);                                                        \
-		const lobe_vec3 h = lobe_vec3_add(o, i);                                                               \
+		const lobe_vec3 h = lobe_vec3_add(lobe_vec3_make(ox, LOBE_R(0.0), oz), lobe_vec3_make(ix, iy, iz));    \
 		lobe_seen_facet m;                                                                                     \
 		lobe_microsurface q = surface;                                                                         \
 		q.distribution.ndf = LOBE_NDF_GGX;                                                                     \
 		q.masking = masking;                                                                                   \
-		q.joint = joint;                                                                                       \
 		m.length2 = lobe_dot(h, h);                                                                            \
 		m.o = LOBE_R(0.5) * m.length2;                                                                         \
 		m.i = LOBE_R(0.5) * m.length2;                                                                         \
 		m.z = h.z;                                                                                             \
-		return oz * lobe_masking_g2_over_cos(q, lobe_see(q, o, LOBE_R(1.0)), lobe_see(q, i, LOBE_R(1.0)), m,   \
-						     0);                                                               \
+		const lobe_seen o = lobe_see(q, lobe_vec3_make(ox, LOBE_R(0.0), oz), LOBE_R(1.0));                     \
+		const lobe_seen i = lobe_see(q, lobe_vec3_make(ix, iy, iz), LOBE_R(1.0));                              \
+		if (masking == LOBE_MASKING_SMITH)                                                                     \
+			return oz * lobe_masking_smith(joint, o, i);                                                   \
+		return oz * approximations_g2_plain(q, o, i, m);                                                       \
 	}                                                                                                              \
 	LOBE_FN lobe_real approximations_g2_across(lobe_microsurface surface, lobe_uint across, lobe_real oz,          \
 						   lobe_real ox, lobe_real iz, lobe_real ix, lobe_real iy)             \
