@@ -288,6 +288,11 @@ REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/com
 REPORT_OBJECTS := $(patsubst %.c,$(B)/report/%.o,$(REPORT_SOURCES) $(REPORT_COMMON))
 REPORT_LIBS := $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a -lOpenEXRCore -lOpenEXR -lpng -lquadmath $(TEST_LIBS)
 REPORT_CFLAGS := $(TEST_CFLAGS) $(NATIVE) -Iexamples/common -Iexamples/gallery -Ibench/report $(shell pkg-config --cflags OpenEXR libpng 2>/dev/null)
+# Timed loops are compiled as the library's own are.
+$(B)/report/bench/report/approximations_loops.o $(B)/report/bench/report/approximations_single.o \
+	$(B)/report/bench/report/approximations_double.o $(B)/report/bench/report/approximations_field.o: \
+	private REPORT_CFLAGS += $(ROW_CFLAGS)
+$(B)/report/bench/report/approximations_double.o: private REPORT_CFLAGS += -DLOBE_DOUBLE=1
 $(B)/report/%.o: %.c $(HEADERS) $(wildcard bench/*.h bench/report/*.h examples/*/*.h tests/*.h)
 	@mkdir -p $(@D)
 	@echo "  cc    $@"
