@@ -30,10 +30,10 @@ unset multiplot
 
 set terminal pngcairo size 1200, 800 enhanced font "sans,11"
 set output "approximations_real.png"
-set title "Elementary functions: lobe's, libm's in single precision, OpenCL's built-in (on the native column where they have one)"
+set title "Elementary functions: lobe's (round) and libm's in single precision (square)"
 set xrange [0.1:*]
 set yrange [*:*]
-unset logscale y
+set logscale y
 set format y "%g"
 set ylabel "RMS error [ulp]"
 plot PARETO("real") using (strstrt(strcol(1), "/lobe") ? $2 : NaN):3 skip 1 with points pt 7 ps 1.4 lc rgb "#1f77b4", \

@@ -125,15 +125,15 @@ static void close_file(FILE *file, const char *name)
 }
 
 /* What make readme puts into README.md. */
-static void write_readme(const report_page *page)
+static void write_readme(const report_page *page, int quick)
 {
 	char commit[64], processor[256];
 	FILE *to = report_open("readme.md");
 	bench_processor_name(processor, sizeof processor);
 	if (!bench_command("git describe --always --dirty --abbrev=12 2>/dev/null", commit, sizeof commit))
 		snprintf(commit, sizeof commit, "unknown");
-	fprintf(to, "Measured by `make report` on %s, %zu processors, at commit %s.\n\n%s", processor,
-		bench_processors(), commit, page->readme.text ? page->readme.text : "");
+	fprintf(to, "Measured by `make report%s` on %s, %zu processors, at commit %s.\n\n%s", quick ? " QUICK=1" : "",
+		processor, bench_processors(), commit, page->readme.text ? page->readme.text : "");
 	close_file(to, "readme.md");
 }
 
@@ -151,6 +151,6 @@ void report_page_write(const report_page *page, int quick, int whole)
 		page->findings.text ? page->findings.text : "");
 	fprintf(to, "%s", page->text.text ? page->text.text : "");
 	close_file(to, "report.md");
-	if (whole && !quick)
-		write_readme(page);
+	if (whole)
+		write_readme(page, quick);
 }

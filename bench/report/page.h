@@ -14,7 +14,7 @@ struct report_page {
 /* Heading of a section, and what makes its figures. */
 void report_page_section(report_page *page, const report_section *section);
 
-/* out/report/report.md: head, findings, sections; and README's part, where all sections were asked whole. */
+/* out/report/report.md: head, findings, sections; and README's part, where all sections are there. */
 void report_page_write(const report_page *page, int quick, int whole);
 
 #endif

@@ -1,6 +1,6 @@
 /* sections.c - the report's sections, in the order of the page. */
 #include "report.h"
 
-extern const report_section strategies_section, approximations_section, stability_section;
+extern const report_section strategies_section, report_approximations, stability_section;
 
-const report_section *const report_sections[] = {&strategies_section, &approximations_section, &stability_section, NULL};
+const report_section *const report_sections[] = {&strategies_section, &report_approximations, &stability_section, NULL};

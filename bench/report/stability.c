@@ -252,6 +252,9 @@ static void write_forms(report_page *page, const report_table *t)
 			  "precision; worst relative error and worst error over floor, cases with a floor above a tenth apart.\n\n"
 			  "| what | printed | worst error | /floor | not a number | the library | worst error | /floor |\n"
 			  "|---|---|--:|--:|--:|---|--:|--:|\n");
+	report_readme(page, "Forms as textbooks print them and the library's, both in single precision, at stiff and extreme corners: worst "
+			    "relative error, and worst error over what half an ulp of the inputs does to the exact answer.\n\n"
+			    "| what | printed: error | over floor | library: error | over floor |\n|---|--:|--:|--:|--:|\n");
 	for (int f = 0; f < STABILITY_FORMS; f++) {
 		double worst[4] = {0}, failed = 0.0;
 		static const char *const columns[4] = {"textbook", "textbook_over_floor", "ours", "ours_over_floor"};
@@ -264,11 +267,13 @@ static void write_forms(report_page *page, const report_table *t)
 		}
 		report_text(page, "| %s | %s | %.2g | %.2g | %.0f | %s | %.2g | %.2g |\n", stability_forms[f].name,
 			    stability_forms[f].textbook, worst[0], worst[1], failed, stability_forms[f].ours, worst[2], worst[3]);
+		report_readme(page, "| %s | %.2g | %.2g | %.2g | %.2g |\n", stability_forms[f].name, worst[0], worst[1], worst[2], worst[3]);
 		if (f < 5 && used < sizeof text)
 			used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %.1g (%.1g)", used ? ", " : "",
 						 stability_forms[f].name, worst[1], worst[3]);
 	}
 	report_text(page, "\n");
+	report_readme(page, "\n![](doc/stability_forms.png)\n\n");
 	report_gnuplot(page, "stability_forms.gp", NULL);
 	report_figure(page, "stability_forms.png", "Worst relative error of the printed form and of the library's over what "
 						  "makes the printed one fail, with the mean floor.");

@@ -134,6 +134,9 @@ static void write_sheet(report_page *page, const report_table *reference, const 
 		light, off);
 	snprintf(file, sizeof file, "strategies_errors%d.png", number);
 	report_figure(page, file, "The same: relative error of each pixel.");
+	if (number == 1)
+		report_readme(page, "Balls of gold under *%s*, each technique for the same time:\n\n![](doc/strategies_pictures1.png)\n\n",
+			      light);
 	report_finding(
 		page,
 		"Three gold balls under %s in equal time: %s errs least, %.2g of the mean; the default alone %.2g",
