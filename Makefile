@@ -30,10 +30,16 @@ ISA_avx2 := -mavx2 -mfma
 ISA_avx512 := -mavx2 -mfma -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512
 
 # For gcc: jump threading would copy divisions into both arms of a select, and the loops are long chains that gain from
-# scheduling before registers are given out.
+# scheduling before registers are given out. The sample loops are unrolled twice (rows.c): -fweb tells the two apart.
 ROW_OPT ?= -O3
-ROW_CFLAGS := $(LIB_CFLAGS) $(ROW_OPT) $(foreach f,-fno-thread-jumps -fschedule-insns -fsched-pressure,\
+# -g1: names and lines alone. Where each variable of a vectorised loop went is half the time of compiling it.
+ROW_CFLAGS := $(LIB_CFLAGS) $(if $(filter -g%,$(CFLAGS)),-g1) $(ROW_OPT) $(foreach f,-fno-thread-jumps -fschedule-insns -fsched-pressure \
+	-fweb --param=sched-pressure-algorithm=2,\
 	$(shell $(CC) -Werror $(f) -E -x c /dev/null >/dev/null 2>&1 && echo $(f)))
+
+# The compiler's own account of what it vectorised goes to rows_*.vec, beside the object: tests/test_vectorised.sh reads it.
+ROW_REPORT := $(firstword $(foreach f,-fopt-info-vec-optimized= -foptimization-record-file=,\
+	$(shell $(CC) -Werror $(f)/dev/null -E -x c /dev/null >/dev/null 2>&1 && echo $(f))))
 
 HEADERS := Makefile $(wildcard include/lobe/*.h include/lobe/*/*.h include/lobe/*/*.def src/*.h)
 
@@ -79,7 +85,9 @@ $(B)/obj/%.o: src/%.c $(HEADERS) | $(B)/obj
 define ROW_RULE
 $(ROW_DIR)/rows_$(1)_$(2).o: src/rows.c $(HEADERS) | $(B)/obj
 	@echo "  cc    $$@"
-	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) -c src/rows.c -o $$@
+	@rm -f $$(@:.o=.vec)
+	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) $$(if $(ROW_REPORT),$(ROW_REPORT)$$(@:.o=.vec)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) \
+		-c src/rows.c -o $$@
 endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))
 
@@ -188,11 +196,15 @@ $(B)/tests/unity.o: tests/vendor/unity/unity.c | $(B)/tests
 # The reference build of the lobes in double precision.
 $(B)/tests/double.o: private TEST_CFLAGS += -DLOBE_DOUBLE=1
 $(B)/tests/double_distributions.o: private TEST_CFLAGS += -DLOBE_DOUBLE=1
-# Millions of samples: with lobe_fma as one instruction where the processor has it. Same bits.
-$(B)/tests/test_distributions_visible.o: private TEST_CFLAGS += $(NATIVE)
+# Millions of evaluations: with lobe_fma as one instruction where the processor has it, which gives the same bits in a third
+# of the time. As a user's program is by default, with lobe_fma in double: the tests of it and of known answers,
+# the scalar functions of test_equivalence, and the materials of all.
+TEST_PLAIN := test_real test_core test_vectors scalar cases
+TEST_NATIVE := $(NATIVE)
+$(patsubst %,$(B)/tests/%.o,$(TEST_PLAIN)): private TEST_NATIVE :=
 $(B)/tests/%.o: tests/%.c $(HEADERS) $(TEST_HEADERS) | $(B)/tests
 	@echo "  cc    $@"
-	$(Q)$(CC) $(TEST_CFLAGS) -c $< -o $@
+	$(Q)$(CC) $(TEST_CFLAGS) $(TEST_NATIVE) -c $< -o $@
 
 $(B)/tests/libtest.a: $(patsubst tests/%.c,$(B)/tests/%.o,$(TEST_SHARED)) $(B)/tests/unity.o
 	@rm -f $@
@@ -205,17 +217,23 @@ $(B)/tests/%: $(B)/tests/%.o $(B)/tests/libtest.a $(B)/liblobe.a
 
 .SECONDARY:
 
+# The longest first, lest one of them runs alone at the end.
+LONGEST := test_same_bits.sh test_equivalence test_sanitize.sh test_lobes_chi2 test_sources.sh test_distributions_visible \
+	test_vectorised.sh test_fallback test_strategies test_opencl_faults test_real test_opencl_cache
+longest_first = $(foreach t,$(LONGEST),$(filter %/$(t),$(1))) $(filter-out $(addprefix %/,$(LONGEST)),$(1))
+SHORT_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c)) $(wildcard tests/test_*.sh)
+LONG_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/long_*.c)) $(wildcard tests/long_*.sh)
+
 test:
 	@./deps.sh test
 	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(B)/heightfield $(TEST_PROGRAMS)
-	@CC="$(CC)" tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c)) $(wildcard tests/test_*.sh)
+	@CC="$(CC)" tests/run.sh $(call longest_first,$(SHORT_TESTS))
 
 # The slow sweeps: every float through every elementary function, and the tests' larger settings.
 test-long:
 	@./deps.sh test
 	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(B)/heightfield $(TEST_PROGRAMS)
-	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c tests/long_*.c)) \
-		$(wildcard tests/test_*.sh tests/long_*.sh)
+	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(LONG_TESTS) $(call longest_first,$(SHORT_TESTS))
 
 # Writes the known-answer vectors anew; git diff shows what changed.
 vectors: $(B)/tests/tool_vectors
@@ -265,11 +283,17 @@ figures:
 # Error against run time, and stability at the extremes. QUICK=1: in minutes. Everything but the main program is a library,
 # for tests of the studies.
 REPORT_SOURCES := $(filter-out bench/report/main.c,$(wildcard bench/report/*.c))
-REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/common/*.c)) bench/machine.c bench/scenes.c bench/timing.c
+REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/common/*.c)) examples/gallery/light.c \
+	bench/machine.c bench/scenes.c bench/timing.c
 REPORT_OBJECTS := $(patsubst %.c,$(B)/report/%.o,$(REPORT_SOURCES) $(REPORT_COMMON))
 REPORT_LIBS := $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a -lOpenEXRCore -lOpenEXR -lpng -lquadmath $(TEST_LIBS)
-REPORT_CFLAGS := $(TEST_CFLAGS) $(NATIVE) -Iexamples/common -Ibench/report $(shell pkg-config --cflags OpenEXR libpng 2>/dev/null)
-$(B)/report/%.o: %.c $(HEADERS) $(wildcard bench/*.h bench/report/*.h examples/common/*.h tests/*.h)
+REPORT_CFLAGS := $(TEST_CFLAGS) $(NATIVE) -Iexamples/common -Iexamples/gallery -Ibench/report $(shell pkg-config --cflags OpenEXR libpng 2>/dev/null)
+# Timed loops are compiled as the library's own are.
+$(B)/report/bench/report/approximations_loops.o $(B)/report/bench/report/approximations_single.o \
+	$(B)/report/bench/report/approximations_double.o $(B)/report/bench/report/approximations_field.o: \
+	private REPORT_CFLAGS += $(ROW_CFLAGS)
+$(B)/report/bench/report/approximations_double.o: private REPORT_CFLAGS += -DLOBE_DOUBLE=1
+$(B)/report/%.o: %.c $(HEADERS) $(wildcard bench/*.h bench/report/*.h examples/*/*.h tests/*.h)
 	@mkdir -p $(@D)
 	@echo "  cc    $@"
 	$(Q)$(CC) $(REPORT_CFLAGS) -c $< -o $@
@@ -284,8 +308,7 @@ $(B)/bench/report: $(B)/report/bench/report/main.o $(B)/bench/libreport.a $(B)/t
 	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@
 
 REPORT_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_report*.c tests/test_stability*.c))
-$(REPORT_TESTS:=.o): private TEST_CFLAGS += $(NATIVE) -Ibench/report
-$(REPORT_TESTS:=.o): $(wildcard bench/report/*.h)
+$(REPORT_TESTS:=.o): private TEST_CFLAGS += -Ibench/report
 $(REPORT_TESTS): $(B)/tests/%: $(B)/tests/%.o $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a
 	@echo "  link  $@"
 	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@
@@ -294,6 +317,10 @@ report:
 	@./deps.sh all
 	+@$(MAKE) --no-print-directory $(JOBS) $(B)/bench/report
 	@$(B)/bench/report $(if $(QUICK),--quick) $(OPTIONS)
+
+# The report's part of README.md.
+readme:
+	@bench/report/readme.sh
 
 # Mitsuba 3 beside lobe, in turn; skipped, with a word why, where it cannot be installed. OPTIONS: of bench/peers/mitsuba.py.
 bench-peers: $(B)/bench/throughput
@@ -340,6 +367,7 @@ help:
 		'make bench-peers  Mitsuba 3 beside lobe (installs it in build/peers); out/bench/peers.csv' \
 		'make figures    D, G1, masking, albedo, visible normals: out/figures/*.png' \
 		'make report     error against run time, stability, furnaces: out/report/report.md; QUICK=1 in minutes' \
+		'make readme     puts the last report into README.md and doc/' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \
@@ -347,7 +375,7 @@ help:
 		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: FORCE all run test test-long vectors bench bench-peers figures report check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench bench-peers figures report readme check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)
