@@ -6,7 +6,7 @@
  *
  * The floor of a case is how much the exact answer moves when an input moves by half a unit in its last place: the root of
  * the sum of the squares over all inputs (components of the directions, parameters), and at least half an ulp of the
- * answer itself, which no result in single precision can undercut. A result that is off by a few floors is as good as
+ * answer itself (of a direction, of 1), which no result in single precision can undercut. A result that is off by a few floors is as good as
  * the question; one that is off by a hundred has a cancellation that another form would not have. */
 #ifndef LOBE_BENCH_STABILITY_H
 #define LOBE_BENCH_STABILITY_H
@@ -16,9 +16,16 @@
 
 #include "cases.h"
 
-/* f |cos|; density; weight of a sample in the direction that it returned. For delta lobes pdf is the probability of the
- * sample's event. */
-typedef enum { STABILITY_EVAL, STABILITY_PDF, STABILITY_WEIGHT, STABILITY_VERBS } stability_verb;
+/* f |cos|; density; weight of a sample in the direction that it returned; that direction, one component of it, of lobes
+ * whose samplers are maps with a name (not Beckmann's inverted distribution, nor the choices of the comparison lobes). For
+ * delta lobes pdf is the probability of the sample's event. */
+typedef enum {
+	STABILITY_EVAL,
+	STABILITY_PDF,
+	STABILITY_WEIGHT,
+	STABILITY_DIRECTION,
+	STABILITY_VERBS
+} stability_verb;
 
 extern const char *const stability_verb_names[STABILITY_VERBS];
 
@@ -43,7 +50,7 @@ lobe_bsdf stability_bsdf(const stability_case *c);
 
 /* What is asked of a reference. reflects: the event of a sample of a delta lobe; delta: refraction is one (a property of
  * the parameters); straight: the sample is that one; white: as if everything were reflected or transmitted; nudge: added to
- * the cosine to the facet. */
+ * the cosine to the facet; of a direction, to x (white: to y) of the point of the unit sphere that a visible normal is made of. */
 typedef struct {
 	lobe_uint kind;
 	stability_verb verb;
@@ -65,7 +72,9 @@ typedef enum {
 	/* A reflectance or transmittance R that its header (core/fresnel.h for metals, fresnel_schlick.h, airy.h) promises to some
 	 * roundings of 1, not of itself: with R's error counted in units of 2^-24 (films: 2^-22, times a quarter of an index above 4) the ratio is at most 16. Also
 	 * where the cosine to the facet that it is of, rounded at 1, decides: light leaves eta = 1000 through a cone of which
-	 * 1 - cos is 5e-7. So for sums over facets (lobes/microfacet_diffuse.h), whose cosines are exact to a rounding of 1. */
+	 * 1 - cos is 5e-7. So for sums over facets (lobes/microfacet_diffuse.h), whose cosines are exact to a rounding of 1. And so for
+	 * sampled directions: a visible normal is the sum of two points of the unit sphere, which near its rim are
+	 * opposite. */
 	STABILITY_OF_ONE,
 	STABILITY_CLASSES
 } stability_class;
@@ -73,10 +82,11 @@ typedef enum {
 extern const char *const stability_class_names[STABILITY_CLASSES];
 
 /* error: |value - exact|. floor, and the part of it that the directions alone make; floor_of_one: the same with reflectances
- * counted against 1. ulp: distance of floats at the exact answer. defined: 0 where the case asks nothing (no sample; no
+ * counted against 1. ulp: distance of floats at the exact answer, and size, what is small against it: the
+ * answer, or 1 for a direction. defined: 0 where the case asks nothing (no sample; no
  * reference; a tilted surface that shows less than 1e-18 of itself, where densities and areas underflow). */
 typedef struct {
-	double value, exact, error, floor, floor_directions, floor_of_one, ulp;
+	double value, exact, error, floor, floor_directions, floor_of_one, ulp, size;
 	int defined;
 } stability_result;
 

@@ -201,6 +201,8 @@ static void climb(ascent *a, unsigned steps, uint64_t seed)
 			const int by = (int)(test_bits(7500, at++) % 33) - 16;
 			if (which < 3)
 				c.wo[which] = ulps(c.wo[which], by);
+			else if (which < 6 && a->verb >= STABILITY_WEIGHT)
+				c.u[which - 3] = (float)within((double)ulps(c.u[which - 3], by), 0.0, 0x1.fffffep-1);
 			else if (which < 6)
 				c.wi[which - 3] = ulps(c.wi[which - 3], by);
 			else {
@@ -232,9 +234,9 @@ stability_case stability_ascend(stability_measure_ratio ratio, stability_case c,
 	a.best = c;
 	a.parameters = stability_parameters_of(&c, a.parameter);
 	try(&a, &c);
-	/* What a weight is asked about is not wi but what u makes of wo: ulps and parameters are all there is to move. */
-	if (verb != STABILITY_WEIGHT)
+	/* What a sample is asked about is not wi but what u makes of wo: ulps are all there is to move. */
+	if (verb < STABILITY_WEIGHT)
 		simplex(&a, steps / 2);
-	climb(&a, verb != STABILITY_WEIGHT ? steps / 2 : steps, seed);
+	climb(&a, verb < STABILITY_WEIGHT ? steps / 2 : steps, seed);
 	return a.best;
 }

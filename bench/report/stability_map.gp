@@ -19,8 +19,8 @@ do for [verb in "eval pdf"] {
 	set cbrange [0.5:1e5]
 	plot rows(verb) using (log10($3)):(log10($4)):($6 > 0 ? $6 : 0.5) with image notitle
 	set title verb.": worst error over floor"
-	set cbrange [0.1:100]
-	plot rows(verb) using (log10($3)):(log10($4)):($8 > 0 ? $8 : 0.1) with image notitle
+	set cbrange [0.001:100]
+	plot rows(verb) using (log10($3)):(log10($4)):($8 > 0.001 ? $8 : 0.001) with image notitle
 	set title verb.": the floor (median), relative"
 	set cbrange [1e-8:1]
 	plot rows(verb) using (log10($3)):(log10($4)):9 with image notitle

@@ -6,7 +6,7 @@
 
 #include "stability_reference.h"
 
-const char *const stability_verb_names[STABILITY_VERBS] = {"eval", "pdf", "weight"};
+const char *const stability_verb_names[STABILITY_VERBS] = {"eval", "pdf", "weight", "direction"};
 const lobe_uint stability_kinds[STABILITY_LOBES] = {
 #define LOBE_X(NAME, name, value) value,
 #include "lobe/lobes/lobes.def"
@@ -65,8 +65,10 @@ static double channel_of(lobe_rgb f, int channel) { return (double)(channel == 0
 double stability_library(const stability_case *c, stability_verb verb)
 {
 	const lobe_bsdf b = stability_bsdf(c);
-	if (verb == STABILITY_WEIGHT || (verb == STABILITY_PDF && is_delta_only(c->kind))) {
+	if (verb >= STABILITY_WEIGHT || (verb == STABILITY_PDF && is_delta_only(c->kind))) {
 		const lobe_sample s = lobe_bsdf_sample(b, vec3(c->wo), vec3(c->u));
+		if (verb == STABILITY_DIRECTION)
+			return (double)(c->channel == 0 ? s.wi.x : c->channel == 1 ? s.wi.y : s.wi.z);
 		return verb == STABILITY_PDF ? (double)s.pdf : channel_of(s.weight, c->channel);
 	}
 	return verb == STABILITY_PDF ? (double)lobe_bsdf_pdf(b, vec3(c->wo), vec3(c->wi))
@@ -125,12 +127,12 @@ size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS])
 }
 
 /* The places in x of what c's answer depends on continuously: of a delta lobe wo alone. */
-static size_t inputs_of(const stability_case *c, int at[STABILITY_INPUTS])
+static size_t inputs_of(const stability_case *c, stability_verb verb, int at[STABILITY_INPUTS])
 {
 	int parameters[CASE_PARAMETERS];
 	const size_t length = stability_parameters_of(c, parameters);
 	size_t n = 0;
-	for (int k = 0; k < (is_delta_only(c->kind) ? 3 : 6); k++)
+	for (int k = 0; k < (is_delta_only(c->kind) ? 3 : verb == STABILITY_DIRECTION ? 5 : 6); k++)
 		at[n++] = k;
 	for (size_t k = 0; k < length; k++)
 		at[n++] = 6 + parameters[k];
@@ -177,6 +179,12 @@ static int is_invisible(const stability_case *c, const lobe_bsdf *b, const float
 	}
 }
 
+static int has_direction(lobe_uint kind)
+{
+	return kind == LOBE_KIND_LAMBERT || kind == LOBE_KIND_GGX_CONDUCTOR || kind == LOBE_KIND_GGX_SCHLICK ||
+	       kind == LOBE_KIND_GGX_DIELECTRIC || is_delta_only(kind);
+}
+
 /* The question of a case, and its inputs; 0 where there is none. */
 static int ask(const stability_case *c, stability_verb verb, stability_question *q, long double x[STABILITY_INPUTS])
 {
@@ -188,9 +196,9 @@ static int ask(const stability_case *c, stability_verb verb, stability_question 
 	q->verb = verb;
 	q->channel = c->channel;
 	q->delta = refraction_is_delta(&b);
-	if (verb == STABILITY_EVAL && is_delta_only(c->kind))
+	if ((verb == STABILITY_EVAL && is_delta_only(c->kind)) || (verb == STABILITY_DIRECTION && !has_direction(c->kind)))
 		return 0;
-	if (verb == STABILITY_WEIGHT || is_delta_only(c->kind)) {
+	if (verb >= STABILITY_WEIGHT || is_delta_only(c->kind)) {
 		const lobe_sample s = lobe_bsdf_sample(b, vec3(c->wo), vec3(c->u));
 		if (s.event == 0u)
 			return 0;
@@ -202,7 +210,7 @@ static int ask(const stability_case *c, stability_verb verb, stability_question 
 		sampled[0] = s.wi.x;
 		sampled[1] = s.wi.y;
 		sampled[2] = s.wi.z;
-		wi = sampled;
+		wi = verb == STABILITY_DIRECTION ? c->u : sampled;
 	}
 	if (is_invisible(c, &b, wi))
 		return 0;
@@ -274,6 +282,16 @@ static double of_one(const stability_case *c, stability_question q, const long d
 	}
 	const long double exact = stability_exact(q, x);
 	long double moved = 0.0L;
+	if (q.verb == STABILITY_DIRECTION) {
+		/* By one rounding and by four: the answer may turn round in between. */
+		for (int k = 0; k < 8; k++) {
+			const double by = k & 4 ? 4.0 : 1.0;
+			q.nudge = k & 1 ? by * 0x1p-24 : -by * 0x1p-24;
+			q.white = k >> 1 & 1;
+			moved = fmaxl(moved, fabsl(stability_exact(q, x) - exact) / (long double)by);
+		}
+		return fmax((double)moved, 0x1p-24);
+	}
 	for (int side = -1; side <= 1; side += 2) {
 		q.nudge = side * 0x1p-24;
 		moved = fmaxl(moved, fabsl(stability_exact(q, x) - exact));
@@ -294,9 +312,11 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 		return r;
 	const int textbook = stability_is_textbook(c);
 	const long double exact = answer(textbook, q, x);
-	const size_t n = inputs_of(c, at);
+	const size_t n = inputs_of(c, verb, at);
 	for (size_t k = 0; k < n; k++) {
-		const long double old = x[at[k]], step = stability_half_ulp(old);
+		/* A u is a cell of 2^-24 (core/warp.h), whatever its bits below that. */
+		const int of_u = verb == STABILITY_DIRECTION && at[k] >= 3 && at[k] < 6;
+		const long double old = x[at[k]], step = fmaxl(stability_half_ulp(old), of_u ? 0x1p-25L : 0.0L);
 		long double most = 0.0L;
 		for (int side = -1; side <= 1 && step > 0.0L; side += 2) {
 			x[at[k]] = old + (long double)side * step;
@@ -310,7 +330,9 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 	r.value = lobe(c, verb);
 	r.exact = (double)exact;
 	r.error = (double)fabsl((long double)r.value - exact);
-	r.ulp = 2.0 * (double)(exact == 0.0L ? 0x1p-150L : stability_half_ulp(exact));
+	/* A component of a direction is a part of 1, none is small. */
+	r.size = verb == STABILITY_DIRECTION ? 1.0 : (double)exact;
+	r.ulp = verb == STABILITY_DIRECTION ? 0x1p-24 : 2.0 * (double)(exact == 0.0L ? 0x1p-150L : stability_half_ulp(exact));
 	r.floor = fmax((double)sqrtl(directions + parameters), 0.5 * r.ulp);
 	r.floor_directions = (double)sqrtl(directions);
 	r.floor_of_one = r.error > r.floor ? fmax(r.floor, of_one(c, q, x)) : r.floor;
@@ -333,8 +355,8 @@ double stability_own_error(const stability_case *c, stability_verb verb, const s
 
 double stability_ratio(const stability_result *r) { return r->defined ? r->error / r->floor : 0.0; }
 
-static int is_tiny(const stability_result *r) { return r->exact < 1e-30 && r->value < 1e-30; }
-static int is_undetermined(const stability_result *r) { return !(r->floor < 0.1 * r->exact); }
+static int is_tiny(const stability_result *r) { return r->size < 1e-30 && r->value < 1e-30; }
+static int is_undetermined(const stability_result *r) { return !(r->floor < 0.1 * r->size); }
 
 double stability_ratio_determined(const stability_result *r)
 {
@@ -360,7 +382,7 @@ void stability_print(const stability_case *c, stability_verb verb, char *text, s
 {
 	int at[CASE_PARAMETERS];
 	const size_t n = stability_parameters_of(c, at);
-	const int samples = verb == STABILITY_WEIGHT || is_delta_only(c->kind);
+	const int samples = verb >= STABILITY_WEIGHT || is_delta_only(c->kind);
 	const float *second = samples ? c->u : c->wi;
 	size_t used = (size_t)snprintf(text, size, "wo %a %a %a %s %a %a %a", (double)c->wo[0], (double)c->wo[1],
 				       (double)c->wo[2], samples ? "u" : "wi", (double)second[0], (double)second[1],

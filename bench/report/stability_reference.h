@@ -5,7 +5,7 @@
 
 #include "stability.h"
 
-/* wo, wi and parameters in one array, so that each can be moved: x[0..2], x[3..5], x[6..]. */
+/* wo, wi (for STABILITY_DIRECTION u) and parameters in one array, so that each can be moved: x[0..2], x[3..5], x[6..]. */
 enum { STABILITY_INPUTS = 6 + CASE_PARAMETERS };
 
 long double stability_exact(stability_question q, const long double x[STABILITY_INPUTS]);

@@ -22,7 +22,7 @@ void stability_tally_add(stability_tally *t, const stability_case *c, stability_
 	const double ratio = stability_ratio_determined(r), one = stability_ratio_of_one(r);
 	t->cases++;
 	t->non_finite += !(r->value - r->value == 0.0);
-	t->negative += r->value < 0.0;
+	t->negative += verb != STABILITY_DIRECTION && r->value < 0.0;
 	if (r->exact == 0.0 && r->value == 0.0)
 		return;
 	t->compared++;
@@ -174,7 +174,7 @@ static int worst_run(int quick, size_t unit, report_rows *rows)
 	stability_print(&worst, verb, text, sizeof text);
 	report_row(rows, "%s,%s,%s,%s,%.6g,%.6g,%.9g,%.12g,%.4g,%.4g,%.4g,%s,%s", stability_lobe_names[lobe],
 		   stability_verb_names[verb], names[which], stability_is_textbook(&worst) ? "textbook" : "double build", drawn,
-		   found, r.value, r.exact, r.error / r.ulp, r.floor / r.exact, r.floor_directions / r.exact,
+		   found, r.value, r.exact, r.error / r.ulp, r.floor / r.size, r.floor_directions / r.size,
 		   stability_class_names[stability_explain(&r)], text);
 	return 0;
 }

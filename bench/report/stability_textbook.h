@@ -3,7 +3,7 @@
  *
  *	REAL			the type
  *	REAL_(name)		name with the type's suffix
- *	REAL_SQRT, REAL_EXP, REAL_ERFC, REAL_FABS, REAL_PI
+ *	REAL_SQRT, REAL_EXP, REAL_ERFC, REAL_SIN, REAL_COS, REAL_FABS, REAL_PI
  *
  * Nothing here is the library's code or algebra: normalised half vectors, slopes, tangents, Lambda, complex roots, and
  * cancellation wherever the papers have it, which is what the type's digits are for. tests/textbook.h is the same idea in
@@ -290,6 +290,88 @@ static REAL REAL_(lobe)(stability_question q, const REAL *wo, const REAL *wi, co
 		return REAL_(glass)(q, wo, wi, p);
 	default:
 		return REAL_(smooth)(q, wo, p);
+	}
+}
+
+/* --- where a sample goes: component q.channel of wi --------------------------------------------------------------- */
+
+/* Dupuy and Benyoub 2023: a point of the spherical cap that o, stretched, sees, plus o, stretched back. The point moved
+ * by dx and dy. */
+static void REAL_(visible_normal)(REAL_(surface) s, const REAL *o, const REAL *u, REAL dx, REAL dy, REAL m[3])
+{
+	REAL v[3] = {s.xx * o[0], s.yy * o[1], o[2]};
+	const REAL length = REAL_SQRT(REAL_(dot)(v, v));
+	for (int k = 0; k < 3; k++)
+		v[k] /= length;
+	const REAL phi = 2 * REAL_PI * u[0], z = (1 - u[1]) * (1 + v[2]) - v[2], r = REAL_SQRT(1 - z * z);
+	m[0] = s.xx * (r * REAL_COS(phi) + v[0] + dx);
+	m[1] = s.yy * (r * REAL_SIN(phi) + v[1] + dy);
+	m[2] = z + v[2];
+	const REAL size = REAL_SQRT(REAL_(dot)(m, m));
+	for (int k = 0; k < 3; k++)
+		m[k] /= size;
+}
+
+static void REAL_(mirrored)(const REAL *o, const REAL *m, REAL c, REAL i[3])
+{
+	for (int k = 0; k < 3; k++)
+		i[k] = 2 * c * m[k] - o[k];
+}
+
+/* Snell's law; Walter et al. 2007, eq. 40. Made unit where the library does: towards the thinner side. */
+static void REAL_(refracted)(const REAL *o, const REAL *m, REAL e, REAL i[3])
+{
+	const REAL c = REAL_(at_most_1)(REAL_(dot)(o, m)), g2 = e * e - 1 + c * c, g = g2 > 0 ? REAL_SQRT(g2) : 0;
+	for (int k = 0; k < 3; k++)
+		i[k] = ((c - g) * m[k] - o[k]) / e;
+	const REAL length = REAL_SQRT(REAL_(dot)(i, i));
+	for (int k = 0; k < 3 && e < 1; k++)
+		i[k] /= length;
+}
+
+/* Malley's and Shirley and Chiu's (1997) maps, of the middle of u's cell. */
+static void REAL_(cosine)(const REAL *wo, const REAL *u, REAL i[3])
+{
+	const REAL cell = (REAL)(0x1p-24), a = 2 * u[0] - 1 + cell, b = 2 * u[1] - 1 + cell;
+	const int wide = REAL_FABS(a) > REAL_FABS(b);
+	const REAL r = wide ? a : b, phi = r == 0 ? 0 : wide ? REAL_PI / 4 * b / a : REAL_PI / 2 - REAL_PI / 4 * a / b;
+	i[0] = r * REAL_COS(phi);
+	i[1] = r * REAL_SIN(phi);
+	i[2] = REAL_SQRT(1 - r * r) * (wo[2] < 0 ? -1 : 1);
+}
+
+static REAL REAL_(direction)(stability_question q, const REAL *wo, const REAL *u, const REAL *p)
+{
+	const REAL side = wo[2] > 0 ? 1 : -1, up[3] = {0, 0, 1};
+	const REAL_(surface) s = REAL_(surface_of)(q.kind, p);
+	const REAL o[3] = {wo[0], wo[1], side * wo[2]}, dx = q.white ? 0 : (REAL)q.nudge, dy = q.white ? (REAL)q.nudge : 0;
+	REAL i[3], m[3];
+	switch (q.kind) {
+	case LOBE_KIND_LAMBERT:
+		REAL_(cosine)(wo, u, i);
+		return i[q.channel];
+	case LOBE_KIND_GGX_CONDUCTOR:
+	case LOBE_KIND_GGX_SCHLICK:
+		REAL_(visible_normal)(s, o, u, dx, dy, m);
+		REAL_(mirrored)(o, m, REAL_(dot)(o, m), i);
+		return i[q.channel];
+	case LOBE_KIND_GGX_DIELECTRIC:
+		REAL_(visible_normal)(s, o, u, dx, dy, m);
+		if (q.reflects)
+			REAL_(mirrored)(o, m, REAL_(at_most_1)(REAL_(dot)(o, m)), i);
+		else
+			REAL_(refracted)(o, m, wo[2] > 0 ? p[2] : 1 / p[2], i);
+		return (q.channel == 2 ? side : 1) * i[q.channel];
+	case LOBE_KIND_SMOOTH_DIELECTRIC:
+		if (q.reflects)
+			REAL_(mirrored)(o, up, o[2], i);
+		else
+			REAL_(refracted)(o, up, wo[2] > 0 ? p[0] : 1 / p[0], i);
+		return (q.channel == 2 ? side : 1) * i[q.channel];
+	case LOBE_KIND_THIN_DIELECTRIC:
+		return q.channel == 2 ? (q.reflects ? wo[2] : -wo[2]) : -wo[q.channel];
+	default:
+		return q.channel == 2 ? wo[2] : -wo[q.channel];
 	}
 }
 
