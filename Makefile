@@ -309,6 +309,7 @@ $(B)/bench/report: $(B)/report/bench/report/main.o $(B)/bench/libreport.a $(B)/t
 
 REPORT_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_report*.c tests/test_stability*.c))
 $(REPORT_TESTS:=.o): private TEST_CFLAGS += -Ibench/report
+$(REPORT_TESTS:=.o): $(wildcard bench/report/*.h)
 $(REPORT_TESTS): $(B)/tests/%: $(B)/tests/%.o $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a
 	@echo "  link  $@"
 	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@

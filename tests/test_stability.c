@@ -87,7 +87,8 @@ static void test_nothing_that_must_not_come_out(void)
 		all.negative += job.counts.negative;
 		all.pdf_differs += job.counts.pdf_differs;
 	}
-	printf("  %llu elements, %llu samples: %llu results not finite, %llu negative, %llu samples whose pdf is not pdf()\n",
+	printf("  %llu elements, %llu samples: %llu results not finite, %llu negative, %llu samples whose pdf is not "
+	       "pdf()\n",
 	       (unsigned long long)all.elements, (unsigned long long)all.kept, (unsigned long long)all.non_finite,
 	       (unsigned long long)all.negative, (unsigned long long)all.pdf_differs);
 	TEST_ASSERT_GREATER_THAN_UINT64(test_long() ? 100000000u : 800000u, all.elements);
@@ -122,16 +123,19 @@ static void test_errors_stay_near_the_floor(void)
 	for (size_t l = 0; l < STABILITY_LOBES; l++)
 		sweep(stability_library, stability_kinds[l],
 		      stability_kinds[l] == LOBE_KIND_MICROFACET_DIFFUSE ? cases / 60 : cases, STABILITY_VERBS, tally);
-	printf("  %lu results against the textbook: %lu beyond 16 floors, of which %lu undetermined, %lu tiny, %lu with a "
+	printf("  %lu results against the textbook: %lu beyond 16 floors, of which %lu undetermined, %lu tiny, %lu "
+	       "with a "
 	       "reflectance of 1, %lu unexplained\n",
-	       tally[1].compared, tally[1].above, tally[1].classes[STABILITY_UNDETERMINED], tally[1].classes[STABILITY_TINY],
-	       tally[1].classes[STABILITY_OF_ONE], tally[1].classes[STABILITY_PLAIN]);
-	measured("textbook: error over floor, 99.99 %", stability_percentile(tally[1].bins_of_one, 0.9999), STABILITY_LIMIT);
+	       tally[1].compared, tally[1].above, tally[1].classes[STABILITY_UNDETERMINED],
+	       tally[1].classes[STABILITY_TINY], tally[1].classes[STABILITY_OF_ONE], tally[1].classes[STABILITY_PLAIN]);
+	measured("textbook: error over floor, 99.99 %", stability_percentile(tally[1].bins_of_one, 0.9999),
+		 STABILITY_LIMIT);
 	measured("textbook: the worst", tally[1].worst_of_one, 1.5 * STABILITY_LIMIT);
 	measured("textbook: its own error, in floors", tally[1].own_error, 0.1);
-	measured("textbook: unexplained, in 10^-5", 1e5 * (double)tally[1].classes[STABILITY_PLAIN] / (double)tally[1].compared,
-		 1.0);
-	measured("double build: error over floor, 99.9 %", stability_percentile(tally[0].bins_of_one, 0.999), STABILITY_LIMIT);
+	measured("textbook: unexplained, in 10^-5",
+		 1e5 * (double)tally[1].classes[STABILITY_PLAIN] / (double)tally[1].compared, 1.0);
+	measured("double build: error over floor, 99.9 %", stability_percentile(tally[0].bins_of_one, 0.999),
+		 STABILITY_LIMIT);
 	measured("double build: unexplained, in 10^-4",
 		 1e4 * (double)tally[0].classes[STABILITY_PLAIN] / (double)tally[0].compared, 2.0);
 	TEST_ASSERT_EQUAL_UINT64(0, tally[0].non_finite + tally[1].non_finite);

@@ -11,7 +11,8 @@
 
 /* --- the study of errors: three parts, one after another --------------------------------------------------------------- */
 
-static const approximations_part *const parts[] = {&approximations_fresnel, &approximations_shadow, &approximations_real};
+static const approximations_part *const parts[] = {&approximations_fresnel, &approximations_shadow,
+						   &approximations_real};
 enum { PARTS = sizeof parts / sizeof *parts };
 
 static size_t error_units(int quick)
@@ -34,7 +35,8 @@ static int error_run(int quick, size_t unit, report_rows *rows)
 
 static const report_study error_study = {
 	.name = "approximations_error",
-	.columns = "group,name,case,quantity,samples,max,at,rms,reference,albedo,albedo_alpha,albedo_cos,albedo_reference",
+	.columns =
+		"group,name,case,quantity,samples,max,at,rms,reference,albedo,albedo_alpha,albedo_cos,albedo_reference",
 	.units = error_units,
 	.run = error_run,
 };
@@ -54,7 +56,8 @@ static const char *const loops[3] = {"vector", "scalar", "opencl"};
 static double time_of(const report_table *times, const char *group, const char *name, const char *loop)
 {
 	for (size_t i = 0; i < report_table_rows(times); i++)
-		if (strcmp(report_cell(times, i, "group"), group) == 0 && strcmp(report_cell(times, i, "name"), name) == 0 &&
+		if (strcmp(report_cell(times, i, "group"), group) == 0 &&
+		    strcmp(report_cell(times, i, "name"), name) == 0 &&
 		    strcmp(report_cell(times, i, "loop"), loop) == 0)
 			return report_number(times, i, "ns");
 	return (double)NAN;
@@ -67,7 +70,8 @@ static summary summarise(const report_table *errors, const report_table *times, 
 	double sum2 = 0.0;
 	s.albedo = s.albedo_reference = (double)NAN;
 	for (size_t i = 0; i < report_table_rows(errors); i++) {
-		if (strcmp(report_cell(errors, i, "group"), group) != 0 || strcmp(report_cell(errors, i, "name"), name) != 0 ||
+		if (strcmp(report_cell(errors, i, "group"), group) != 0 ||
+		    strcmp(report_cell(errors, i, "name"), name) != 0 ||
 		    (of && strcmp(report_cell(errors, i, "case"), of) != 0))
 			continue;
 		const double max = report_number(errors, i, "max"), rms = report_number(errors, i, "rms");
@@ -149,7 +153,8 @@ static void cell(report_page *page, double x, const char *format)
 static void table(report_page *page, const summary *all, int n, const char *unit)
 {
 	report_text(page,
-		    "| | max error%s | at worst in | RMS | largest error of albedo | of | reference good to | ns, vectorised "
+		    "| | max error%s | at worst in | RMS | largest error of albedo | of | reference good to | ns, "
+		    "vectorised "
 		    "| ns, one by one | ns, OpenCL |\n|---|---|---|---|---|---|---|---|---|---|\n",
 		    unit);
 	for (int i = 0; i < n; i++) {
@@ -198,44 +203,51 @@ static void dielectrics(report_page *page, const report_table *errors, const rep
 {
 	static const char *const cases[] = {"eta 1.1", "eta 1.33", "eta 1.5", "eta 2", "eta 2.42", "eta 4"};
 	summary all[WAYS_MAX];
-	report_text(page, "By index, Schlick's curve from the exact reflectance at normal incidence:\n\n| index | max error | "
-			  "RMS | albedo | ... with a fitted exponent, max | RMS | albedo |\n|---|---|---|---|---|---|---|\n");
+	report_text(
+		page,
+		"By index, Schlick's curve from the exact reflectance at normal incidence:\n\n| index | max error | "
+		"RMS | albedo | ... with a fitted exponent, max | RMS | albedo |\n|---|---|---|---|---|---|---|\n");
 	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
 		const summary s = summarise(errors, times, "dielectric", "Schlick", cases[i]);
 		const summary f = summarise(errors, times, "dielectric", "Schlick; fitted exponent", cases[i]);
-		report_text(page, "| %s | %.3f | %.4f | %.4f | %.3f | %.4f | %.4f |\n", cases[i], s.max, s.rms, s.albedo, f.max,
-			    f.rms, f.albedo);
+		report_text(page, "| %s | %.3f | %.4f | %.4f | %.3f | %.4f | %.4f |\n", cases[i], s.max, s.rms,
+			    s.albedo, f.max, f.rms, f.albedo);
 	}
 	report_text(page, "\n");
 	const int n = gather(errors, times, "dielectric", "eta 1.5", all);
 	const summary *schlick = find(all, n, "Schlick"), *exact = find(all, n, "exact");
-	report_finding(page,
-		       "Schlick's reflectance at index 1.5 is off by up to %.3f, the albedo by up to %.4f, and saves %.2f of "
-		       "%.2f ns a call in a vectorised loop (%.1f of %.1f one by one)",
-		       schlick->max, schlick->albedo, exact->ns[0] - schlick->ns[0], exact->ns[0],
-		       exact->ns[1] - schlick->ns[1], exact->ns[1]);
+	report_finding(
+		page,
+		"Schlick's reflectance at index 1.5 is off by up to %.3f, the albedo by up to %.4f, and saves %.2f of "
+		"%.2f ns a call in a vectorised loop (%.1f of %.1f one by one)",
+		schlick->max, schlick->albedo, exact->ns[0] - schlick->ns[0], exact->ns[0],
+		exact->ns[1] - schlick->ns[1], exact->ns[1]);
 }
 
 static void conductors(report_page *page, const summary *all, int n)
 {
-	const summary *schlick = find(all, n, "Schlick"), *f82 = find(all, n, "F82-tint"), *exact = find(all, n, "exact");
-	report_finding(page,
-		       "For metals F82-tint is off by at most %.3f (%s), albedo %.4f, where Schlick's curve is off by %.3f "
-		       "(%s), albedo %.4f; it costs %.2f ns a channel and Schlick's %.2f, the exact reflectance %.2f",
-		       f82->max, f82->max_case, f82->albedo, schlick->max, schlick->max_case, schlick->albedo, f82->ns[0],
-		       schlick->ns[0], exact->ns[0]);
+	const summary *schlick = find(all, n, "Schlick"), *f82 = find(all, n, "F82-tint"),
+		      *exact = find(all, n, "exact");
+	report_finding(
+		page,
+		"For metals F82-tint is off by at most %.3f (%s), albedo %.4f, where Schlick's curve is off by %.3f "
+		"(%s), albedo %.4f; it costs %.2f ns a channel and Schlick's %.2f, the exact reflectance %.2f",
+		f82->max, f82->max_case, f82->albedo, schlick->max, schlick->max_case, schlick->albedo, f82->ns[0],
+		schlick->ns[0], exact->ns[0]);
 }
 
 static void lambdas(report_page *page, const summary *all, int n)
 {
 	const summary *rational = find(all, n, "Walter's rational"), *own = find(all, n, "one polynomial"),
 		      *erf = find(all, n, "erf and exp");
-	report_finding(page,
-		       "Walter's rational Lambda puts G1 off by %.4f and the albedo of a Beckmann mirror by %.4f, and saves %.2f "
-		       "of %.2f ns over erf and exp; the library's polynomial is off by %.1g and takes %.2f ns, so that the "
-		       "rational form gains %.2f ns a call",
-		       rational->max, rational->albedo, erf->ns[0] - rational->ns[0], erf->ns[0], own->max, own->ns[0],
-		       own->ns[0] - rational->ns[0]);
+	report_finding(
+		page,
+		"Walter's rational Lambda puts G1 off by %.4f and the albedo of a Beckmann mirror by %.4f, and saves "
+		"%.2f "
+		"of %.2f ns over erf and exp; the library's polynomial is off by %.1g and takes %.2f ns, so that the "
+		"rational form gains %.2f ns a call",
+		rational->max, rational->albedo, erf->ns[0] - rational->ns[0], erf->ns[0], own->max, own->ns[0],
+		own->ns[0] - rational->ns[0]);
 }
 
 static void maskings(report_page *page, const summary *all, int n)
@@ -255,12 +267,14 @@ static void fields(report_page *page, const report_table *rows)
 	static const char *const titles[2] = {"both directions above", "one above, one below (index 1.5)"};
 	char best_name[2][64] = {"", ""};
 	double best[2] = {DBL_MAX, DBL_MAX}, noise = 0.0, separable = 0.0, height = 0.0;
-	report_text(page,
-		    "### Masking against simulated height fields\n\n"
-		    "Facets with the half vector's slope on explicit Gaussian height fields (Beckmann's distribution; "
-		    "correlation exp(-r^2/2); a new field for each facet): the share of them that both directions see, against "
-		    "what each masking function says. Smith's model takes heights as uncorrelated with their neighbours', "
-		    "which no field is; so none of them is exact.\n\n");
+	report_text(
+		page,
+		"### Masking against simulated height fields\n\n"
+		"Facets with the half vector's slope on explicit Gaussian height fields (Beckmann's distribution; "
+		"correlation exp(-r^2/2); a new field for each facet): the share of them that both directions see, "
+		"against "
+		"what each masking function says. Smith's model takes heights as uncorrelated with their neighbours', "
+		"which no field is; so none of them is exact.\n\n");
 	for (int side = 0; side < 2; side++) {
 		struct {
 			const char *name;
@@ -284,12 +298,14 @@ static void fields(report_page *page, const report_table *rows)
 			m[k].max = fmax(m[k].max, fabs(off));
 			m[k].n += 1.0;
 		}
-		report_text(page, "| %s | RMS off | mean off | at most | standard error of the simulation | pairs |\n"
-				  "|---|---|---|---|---|---|\n", titles[side]);
+		report_text(page,
+			    "| %s | RMS off | mean off | at most | standard error of the simulation | pairs |\n"
+			    "|---|---|---|---|---|---|\n",
+			    titles[side]);
 		for (int k = 0; k < count; k++) {
 			const double rms = sqrt(m[k].sum2 / m[k].n);
-			report_text(page, "| %s | %.4f | %+.4f | %.4f | %.4f | %.0f |\n", m[k].name, rms, m[k].sum / m[k].n,
-				    m[k].max, sqrt(m[k].error2 / m[k].n), m[k].n);
+			report_text(page, "| %s | %.4f | %+.4f | %.4f | %.4f | %.0f |\n", m[k].name, rms,
+				    m[k].sum / m[k].n, m[k].max, sqrt(m[k].error2 / m[k].n), m[k].n);
 			noise = fmax(noise, sqrt(m[k].error2 / m[k].n));
 			if (rms < best[side]) {
 				best[side] = rms;
@@ -303,7 +319,8 @@ static void fields(report_page *page, const report_table *rows)
 		report_text(page, "\n");
 	}
 	report_finding(page,
-		       "Of simulated Gaussian height fields the nearest joint masking is \"%s\" (RMS %.3f; height-correlated %.3f, separable %.3f) on one "
+		       "Of simulated Gaussian height fields the nearest joint masking is \"%s\" (RMS %.3f; "
+		       "height-correlated %.3f, separable %.3f) on one "
 		       "side and \"%s\" across (RMS %.3f); the simulation's standard error is %.4f",
 		       best_name[0], best[0], height, separable, best_name[1], best[1], noise);
 }
@@ -336,10 +353,12 @@ static void reals(report_page *page, const summary *all, int n)
 			}
 		}
 	}
-	report_finding(page,
-		       "The library's elementary functions are within %.2f ulp (%.*s; sampled), and faster than libm's in a "
-		       "vectorisable loop in %d of %d cases, by a factor of %.1f in the geometric mean",
-		       worst, (int)strcspn(worst_name, "/"), worst_name, faster, compared, pow(product, 1.0 / fmax(compared, 1)));
+	report_finding(
+		page,
+		"The library's elementary functions are within %.2f ulp (%.*s; sampled), and faster than libm's in a "
+		"vectorisable loop in %d of %d cases, by a factor of %.1f in the geometric mean",
+		worst, (int)strcspn(worst_name, "/"), worst_name, faster, compared,
+		pow(product, 1.0 / fmax(compared, 1)));
 	if (cl)
 		report_finding(page,
 			       "On OpenCL they take %.2f of the time of its built-in functions (geometric mean of %d)",
@@ -351,15 +370,19 @@ static void precision(report_page *page, const report_table *rows, const report_
 	double worst = 0.0, albedo = 0.0, product = 1.0, product_scalar = 1.0;
 	int n = 0;
 	const char *worst_case = "", *worst_what = "";
-	report_text(page, "### Single against double precision\n\nRelative errors of the same source in floats, against doubles with "
-			  "libm, for the same float directions: view cosines .05 to 1, light from where samples go, roughness of "
-			  ".05 and more (what is beyond is for the section on stability).\n\n| case | | median | RMS | 99.9 %% | "
-			  "max | albedo |\n|---|---|---|---|---|---|---|\n");
+	report_text(
+		page,
+		"### Single against double precision\n\nRelative errors of the same source in floats, against doubles "
+		"with "
+		"libm, for the same float directions: view cosines .05 to 1, light from where samples go, roughness of "
+		".05 and more (what is beyond is for the section on stability).\n\n| case | | median | RMS | 99.9 %% | "
+		"max | albedo |\n|---|---|---|---|---|---|---|\n");
 	for (size_t i = 0; i < report_table_rows(rows); i++) {
 		const double p999 = report_number(rows, i, "p999");
 		report_text(page, "| %s | %s | %.1e | %.1e | %.1e | %.1e | %.1e |\n", report_cell(rows, i, "case"),
-			    report_cell(rows, i, "what"), report_number(rows, i, "median"), report_number(rows, i, "rms"), p999,
-			    report_number(rows, i, "max"), report_number(rows, i, "albedo"));
+			    report_cell(rows, i, "what"), report_number(rows, i, "median"),
+			    report_number(rows, i, "rms"), p999, report_number(rows, i, "max"),
+			    report_number(rows, i, "albedo"));
 		albedo = fmax(albedo, report_number(rows, i, "albedo"));
 		if (p999 > worst) {
 			worst = p999;
@@ -367,7 +390,9 @@ static void precision(report_page *page, const report_table *rows, const report_
 			worst_what = report_cell(rows, i, "what");
 		}
 	}
-	report_text(page, "\n| ns a call | vectorised, single | double | one by one, single | double |\n|---|---|---|---|---|\n");
+	report_text(
+		page,
+		"\n| ns a call | vectorised, single | double | one by one, single | double |\n|---|---|---|---|---|\n");
 	for (size_t l = 0; l < approximations_lobe_count; l++)
 		for (int v = 0; v < 3; v++) {
 			double ns[2][2];
@@ -387,8 +412,10 @@ static void precision(report_page *page, const report_table *rows, const report_
 		}
 	report_text(page, "\n");
 	report_finding(page,
-		       "Single precision is within %.1e of double in 99.9 %% of ordinary calls of every lobe (worst: %s, %s), the "
-		       "albedo within %.1e; double takes %.1f times as long vectorised and %.1f times one by one (geometric mean)",
+		       "Single precision is within %.1e of double in 99.9 %% of ordinary calls of every lobe (worst: "
+		       "%s, %s), the "
+		       "albedo within %.1e; double takes %.1f times as long vectorised and %.1f times one by one "
+		       "(geometric mean)",
 		       worst, worst_case, worst_what, albedo, pow(product, 1.0 / n), pow(product_scalar, 1.0 / n));
 }
 
@@ -398,34 +425,43 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		const char *group, *title, *text, *unit;
 		void (*then)(report_page *, const summary *, int);
 	} kinds[] = {
-		{"dielectric", "Fresnel, dielectric", "Over equal steps of the cosine from 0 to 1; index 1.1 to 4.", " (reflectance)",
-		 NULL},
+		{"dielectric", "Fresnel, dielectric", "Over equal steps of the cosine from 0 to 1; index 1.1 to 4.",
+		 " (reflectance)", NULL},
 		{"conductor", "Fresnel, conductor",
-		 "A channel of the ten metals of core/optics.h. F82-tint takes the exact value at 81.8 degrees, the generalised "
+		 "A channel of the ten metals of core/optics.h. F82-tint takes the exact value at 81.8 degrees, the "
+		 "generalised "
 		 "curves what fits the whole curve best; Gulbrandsen's mapping is a change of parameters and exact.",
 		 " (reflectance)", conductors},
-		{"film", "Thin films", "On metals, against the integral of Airy's reflectance over the same sensitivities.",
-		 " (a channel)", NULL},
+		{"film", "Thin films",
+		 "On metals, against the integral of Airy's reflectance over the same sensitivities.", " (a channel)",
+		 NULL},
 		{"lambda", "Lambda of Beckmann", "Against the textbook's form in double.", " (G1)", lambdas},
 		{"masking", "Masking, one side",
-		 "G2 on a GGX surface of width .1 to 1, against Smith's height-correlated masking in double (of the others none "
+		 "G2 on a GGX surface of width .1 to 1, against Smith's height-correlated masking in double (of the "
+		 "others none "
 		 "belongs to it; how near to surfaces they all are is below).",
 		 " (G2)", maskings},
 		{"across", "Masking, across the surface", "Against the beta function.", " (G2)", NULL},
 		{"density", "D from a table", "Relative, against the analytic distribution.", " (relative)", NULL},
 		{"hidden", "Lambda from a table", "Relative, against the analytic distribution.", " (relative)", NULL},
-		{"visible", "Visible normals from a table", "Mean cosine between the view and the visible normals, against the analytic distribution's.", " (mean o.m)", NULL},
+		{"visible", "Visible normals from a table",
+		 "Mean cosine between the view and the visible normals, against the analytic distribution's.",
+		 " (mean o.m)", NULL},
 		{"real", "Elementary functions", "In ulp, by random arguments.", " [ulp]", reals},
 	};
 	const report_table *errors = tables[0], *times = tables[1];
 	(void)quick;
-	report_text(page,
-		    "Each way to compute a thing: its largest and RMS error over the domain named, the largest error of the "
-		    "albedo that follows (a GGX mirror, or Beckmann for its Lambda; four widths .1 to 1, six view cosines .05 to "
-		    "1), and the time of a call, as the median over repeats of loops over %d elements: in a loop that the "
-		    "compiler may vectorise, one by one, and as an OpenCL kernel on all its cores. Where a reference's own error is more than a tenth of "
-		    "the error beside it, that error is an upper bound, and nothing is concluded from it.\n\n",
-		    2048);
+	report_text(
+		page,
+		"Each way to compute a thing: its largest and RMS error over the domain named, the largest error of "
+		"the "
+		"albedo that follows (a GGX mirror, or Beckmann for its Lambda; four widths .1 to 1, six view cosines "
+		".05 to "
+		"1), and the time of a call, as the median over repeats of loops over %d elements: in a loop that the "
+		"compiler may vectorise, one by one, and as an OpenCL kernel on all its cores. Where a reference's own "
+		"error is more than a tenth of "
+		"the error beside it, that error is an upper bound, and nothing is concluded from it.\n\n",
+		2048);
 	for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
 		summary all[WAYS_MAX];
 		int n = gather(errors, times, kinds[k].group, NULL, all);
@@ -450,12 +486,15 @@ static void write(report_page *page, const report_table *const *tables, int quic
 	}
 	report_gnuplot(page, "approximations.gp", NULL);
 	report_figure(page, "approximations_pareto.png",
-		      "RMS error against time of a call in a vectorised loop. The line is the front: nothing below and to the left "
+		      "RMS error against time of a call in a vectorised loop. The line is the front: nothing below and "
+		      "to the left "
 		      "of it.");
-	report_figure(page, "approximations_real.png", "Elementary functions: RMS error in ulp against time of a call.");
+	report_figure(page, "approximations_real.png",
+		      "Elementary functions: RMS error in ulp against time of a call.");
 	fields(page, tables[2]);
 	report_figure(page, "approximations_field.png",
-		      "Masking functions against the simulated share of facets that both directions see; bars are two standard "
+		      "Masking functions against the simulated share of facets that both directions see; bars are two "
+		      "standard "
 		      "errors of the simulation.");
 	precision(page, tables[3], times);
 }
@@ -463,6 +502,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 const report_section report_approximations = {
 	.name = "approximations",
 	.title = "Approximations: error against time",
-	.studies = {&error_study, &approximations_time_study, &approximations_field_study, &approximations_precision_study, NULL},
+	.studies = {&error_study, &approximations_time_study, &approximations_field_study,
+		    &approximations_precision_study, NULL},
 	.write = write,
 };

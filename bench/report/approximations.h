@@ -21,16 +21,16 @@
 /* --- ways ------------------------------------------------------------------------------------------------------------ */
 
 typedef enum {
-	GROUP_LAMBDA,	  /* |z| Lambda of Beckmann's surface; in: x, z of the direction */
+	GROUP_LAMBDA,     /* |z| Lambda of Beckmann's surface; in: x, z of the direction */
 	GROUP_DIELECTRIC, /* reflectance; in: cosine */
 	GROUP_CONDUCTOR,  /* reflectance of one channel; in: cosine */
-	GROUP_FILM,	  /* three channels; in: cosine */
-	GROUP_MASKING,	  /* G2 of a GGX surface; in: o.z, o.x, i.z, i.x, i.y (o.y = 0) */
-	GROUP_ACROSS,	  /* the same, i below: -i.z, -i.x, -i.y */
-	GROUP_DENSITY,	  /* pi D of a direction's unstretched half vector; in: x, y, z */
-	GROUP_HIDDEN,	  /* |z| Lambda; in: x, y, z */
-	GROUP_VISIBLE,	  /* a visible normal, three outputs; in: x, y, z, u.x, u.y */
-	GROUP_REAL,	  /* elementary functions; in: x, y. Named function/by */
+	GROUP_FILM,       /* three channels; in: cosine */
+	GROUP_MASKING,    /* G2 of a GGX surface; in: o.z, o.x, i.z, i.x, i.y (o.y = 0) */
+	GROUP_ACROSS,     /* the same, i below: -i.z, -i.x, -i.y */
+	GROUP_DENSITY,    /* pi D of a direction's unstretched half vector; in: x, y, z */
+	GROUP_HIDDEN,     /* |z| Lambda; in: x, y, z */
+	GROUP_VISIBLE,    /* a visible normal, three outputs; in: x, y, z, u.x, u.y */
+	GROUP_REAL,       /* elementary functions; in: x, y. Named function/by */
 	GROUPS
 } approximations_group;
 
@@ -118,11 +118,11 @@ extern const double albedo_alphas[ALBEDO_ALPHAS], albedo_cosines[ALBEDO_COSINES]
 
 typedef struct {
 	size_t n;
-	float *cosine;		   /* o.m */
-	float *iz, *ix, *iy;	   /* i */
-	float *hx, *hy, *hz;	   /* the facet, unit */
-	double *weight;		   /* sigma/count */
-	double *smith;		   /* G2/z_o, height-correlated */
+	float *cosine;       /* o.m */
+	float *iz, *ix, *iy; /* i */
+	float *hx, *hy, *hz; /* the facet, unit */
+	double *weight;      /* sigma/count */
+	double *smith;       /* G2/z_o, height-correlated */
 	float ox, oz;
 } albedo_nodes;
 

@@ -1,5 +1,5 @@
 /* approximations_double.c - the timed lobes in double precision, whose elementary functions are libm's. */
-#define LOBE_FN static inline __attribute__((always_inline, unused))
+#define LOBE_FN       static inline __attribute__((always_inline, unused))
 #define LOBE_FN_APART static __attribute__((noinline, unused))
 #define PRECISION     approximations_double_time
 

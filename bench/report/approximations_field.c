@@ -19,7 +19,7 @@
 #include "support.h"
 #include "textbook.h"
 
-#define PI 3.14159265358979323846
+#define PI   3.14159265358979323846
 #define STEP 0.04f /* of a ray, in units of which sqrt(2) is the correlation length */
 
 enum { WAVES = 64, LANES = 16, MODELS = 7 };
@@ -27,7 +27,7 @@ enum { WAVES = 64, LANES = 16, MODELS = 7 };
 static const double alphas[] = {0.2, 0.5, 1.0};
 static const double pairs[][3] = {
 	/* theta_o, theta_i, azimuth between them [degrees] */
-	{60, 60, 180}, {60, 60, 90}, {60, 60, 0},  {75, 60, 180}, {75, 60, 0},	 {75, 75, 180},
+	{60, 60, 180}, {60, 60, 90},  {60, 60, 0}, {75, 60, 180}, {75, 60, 0},  {75, 75, 180},
 	{75, 75, 60},  {85, 60, 180}, {85, 60, 0}, {85, 85, 180}, {85, 80, 20}, {45, 75, 120},
 };
 enum { ALPHAS = sizeof alphas / sizeof *alphas, PAIRS = sizeof pairs / sizeof *pairs };
@@ -64,7 +64,8 @@ static int is_free(const field *f, float dx, float dy, float cot, float side)
 {
 	float re[WAVES], im[WAVES], c[WAVES], s[WAVES];
 	for (int i = 0; i < WAVES; i++) {
-		const lobe_sincos turn = lobe_sincos_2pi((f->kx[i] * dx + f->ky[i] * dy) * (STEP / 6.28318530717958648f));
+		const lobe_sincos turn =
+			lobe_sincos_2pi((f->kx[i] * dx + f->ky[i] * dy) * (STEP / 6.28318530717958648f));
 		c[i] = turn.c;
 		s[i] = turn.s;
 		re[i] = f->re[i];
@@ -94,10 +95,10 @@ static int is_free(const field *f, float dx, float dy, float cot, float side)
 
 /* --- models ------------------------------------------------------------------------------------------------------------- */
 
-static const char *const models[2][MODELS] = {
-	{"Smith; separable", "Smith; height-correlated", "Smith; direction-correlated", "Smith; height and direction",
-	 "V-cavities", "Schlick-Smith k = alpha sqrt(2/pi)", "none"},
-	{"separable", "beta function", "1/(1 + Lo + Li) as on one side"}};
+static const char *const models[2][MODELS] = {{"Smith; separable", "Smith; height-correlated",
+					       "Smith; direction-correlated", "Smith; height and direction",
+					       "V-cavities", "Schlick-Smith k = alpha sqrt(2/pi)", "none"},
+					      {"separable", "beta function", "1/(1 + Lo + Li) as on one side"}};
 
 typedef struct {
 	double o[3], i[3], m[3]; /* m: the facet, not unit */
@@ -110,13 +111,15 @@ static double model_of(const pair *p, int across, int k)
 	const double in[3] = {p->i[0], p->i[1], fabs(p->i[2])};
 	const double li = textbook_lambda(TEXTBOOK_BECKMANN, p->alpha, p->alpha, in);
 	if (across)
-		return k == 0 ? 1.0 / ((1.0 + lo) * (1.0 + li)) : k == 1 ? gsl_sf_beta(1.0 + lo, 1.0 + li) : 1.0 / (1.0 + lo + li);
+		return k == 0   ? 1.0 / ((1.0 + lo) * (1.0 + li))
+		       : k == 1 ? gsl_sf_beta(1.0 + lo, 1.0 + li)
+				: 1.0 / (1.0 + lo + li);
 	static const lobe_uint joints[4] = {LOBE_JOINT_SEPARABLE, LOBE_JOINT_HEIGHT, LOBE_JOINT_DIRECTION,
 					    LOBE_JOINT_HEIGHT_DIRECTION};
 	static const lobe_uint maskings[3] = {LOBE_MASKING_VCAVITY, LOBE_MASKING_SCHLICK_SMITH, LOBE_MASKING_NONE};
-	lobe_microsurface s = lobe_microsurface_make(
-		lobe_distribution_make(LOBE_NDF_BECKMANN),
-		lobe_linear_make((float)p->alpha, 0.0f, 0.0f, (float)p->alpha, 0.0f, 0.0f));
+	lobe_microsurface s =
+		lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_BECKMANN),
+				       lobe_linear_make((float)p->alpha, 0.0f, 0.0f, (float)p->alpha, 0.0f, 0.0f));
 	if (k < 4)
 		s.joint = joints[k];
 	else
@@ -162,8 +165,8 @@ static int run(int quick, size_t unit, report_rows *rows)
 	const double n = (double)answers, both = seen[2] / n;
 	const double error = sqrt(fmax(both * (1.0 - both), 1.0 / n) / n);
 	for (int k = 0; k < MODELS && models[across][k]; k++)
-		report_row(rows, "%s,%g,%g,%g,%g,%.0f,%.5f,%.5f,%.5f,%.5f,%s,%.5f", across ? "across" : "same", alpha, angles[0],
-			   angles[1], angles[2], n, seen[0] / n, seen[1] / n, both, error, models[across][k],
+		report_row(rows, "%s,%g,%g,%g,%g,%.0f,%.5f,%.5f,%.5f,%.5f,%s,%.5f", across ? "across" : "same", alpha,
+			   angles[0], angles[1], angles[2], n, seen[0] / n, seen[1] / n, both, error, models[across][k],
 			   model_of(&p, across, k));
 	return 0;
 }

@@ -184,7 +184,8 @@ static void film_errors(size_t unit, int quick, report_rows *rows)
 			for (int k = 0; k < 3; k++) {
 				exact[i][k] = spectral((double)c[i], &p, k, 400);
 				if (i % 5 == 0)
-					reference = fmax(reference, fabs(spectral((double)c[i], &p, k, 200) - exact[i][k]) / 15.0);
+					reference = fmax(reference,
+							 fabs(spectral((double)c[i], &p, k, 200) - exact[i][k]) / 15.0);
 			}
 		}
 		for (size_t w = 0; w < approximations_way_count(); w++) {

@@ -1,6 +1,6 @@
 /* approximations_loops.c - every way of approximations_ways.h as two loops: one that the compiler vectorises where it can,
  * as it does the library's (the same options, src/rows.c), and one that computes a value after another. */
-#define LOBE_FN static inline __attribute__((always_inline, unused))
+#define LOBE_FN       static inline __attribute__((always_inline, unused))
 #define LOBE_FN_APART LOBE_FN
 
 #include "approximations.h"
@@ -141,20 +141,19 @@ SPECTRUM(film_32_scalar, 32, ONE_BY_ONE)
 
 /* --- the list ------------------------------------------------------------------------------------------------------------ */
 
-const char *const approximations_groups[GROUPS] = {"lambda",  "dielectric", "conductor", "film",    "masking",
-						   "across",  "density",    "hidden",    "visible", "real"};
+const char *const approximations_groups[GROUPS] = {"lambda", "dielectric", "conductor", "film",    "masking",
+						   "across", "density",    "hidden",    "visible", "real"};
 
 #define TEXT_(...) #__VA_ARGS__
 #define TEXT(...)  TEXT_(__VA_ARGS__)
-#define ENTRY(outputs, group, id, name, exact, text) {GROUP_##group, #id, name, outputs, exact, id##_vector, id##_scalar, text},
+#define ENTRY(outputs, group, id, name, exact, text)                                                                   \
+	{GROUP_##group, #id, name, outputs, exact, id##_vector, id##_scalar, text},
 #define DEVICE_ENTRY(group, id, name, exact, value)   ENTRY(1, group, id, name, exact, TEXT(value))
 #define DEVICE_ENTRY_3(group, id, name, exact, value) ENTRY(3, group, id, name, exact, TEXT(value))
 #define HOST_ENTRY(group, id, name, exact, value)     ENTRY(1, group, id, name, exact, NULL)
 #define HOST_ENTRY_3(group, id, name, exact, value)   ENTRY(3, group, id, name, exact, NULL)
 const approximations_way approximations_ways[] = {
-	APPROXIMATIONS_WAYS(DEVICE_ENTRY, DEVICE_ENTRY_3, HOST_ENTRY, HOST_ENTRY_3) 
-	ENTRY(3, FILM, film_8, "spectrum of 8", 0, NULL)
-	ENTRY(3, FILM, film_16, "spectrum of 16", 0, NULL)
-	ENTRY(3, FILM, film_32, "spectrum of 32", 1, NULL)
-};
+	APPROXIMATIONS_WAYS(DEVICE_ENTRY, DEVICE_ENTRY_3, HOST_ENTRY, HOST_ENTRY_3)
+		ENTRY(3, FILM, film_8, "spectrum of 8", 0, NULL) ENTRY(3, FILM, film_16, "spectrum of 16", 0, NULL)
+			ENTRY(3, FILM, film_32, "spectrum of 32", 1, NULL)};
 size_t approximations_way_count(void) { return sizeof approximations_ways / sizeof *approximations_ways; }

@@ -49,9 +49,10 @@ static char *program_text(void)
 	for (size_t w = 0; w < approximations_way_count(); w++) {
 		const approximations_way *way = &approximations_ways[w];
 		if (way->text)
-			report_row(&text, way->outputs == 1 ? "__kernel void %s%s r0[i] = %s; }"
-							    : "__kernel void %s%s const lobe_rgb v = %s; r0[i] = v.r; "
-							      "r1[i] = v.g; r2[i] = v.b; }",
+			report_row(&text,
+				   way->outputs == 1 ? "__kernel void %s%s r0[i] = %s; }"
+						     : "__kernel void %s%s const lobe_rgb v = %s; r0[i] = v.r; "
+						       "r1[i] = v.g; r2[i] = v.b; }",
 				   way->id, kernel_head, way->text);
 	}
 	for (size_t b = 0; b < approximations_builtin_count(); b++)
@@ -94,7 +95,8 @@ approximations_device *approximations_device_open(void)
 	const char *sources[2] = {lobe_opencl_source(), own};
 	d->program = d->cl->clCreateProgramWithSource(d->context, 2, sources, NULL, &code);
 	if (say("clCreateProgramWithSource", code) ||
-	    say("clBuildProgram", d->cl->clBuildProgram(d->program, 1, &d->id, lobe_opencl_options(d->scene), NULL, NULL))) {
+	    say("clBuildProgram",
+		d->cl->clBuildProgram(d->program, 1, &d->id, lobe_opencl_options(d->scene), NULL, NULL))) {
 		free(own);
 		approximations_device_close(d);
 		return NULL;
@@ -137,8 +139,8 @@ int approximations_device_run(approximations_device *device, const char *id, con
 	}
 	for (int r = 0; r < rounds && !failed; r++) {
 		const double start = bench_now();
-		failed = say("clEnqueueNDRangeKernel",
-			     cl->clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL)) ||
+		failed = say("clEnqueueNDRangeKernel", cl->clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL,
+										  &global, &local, 0, NULL, NULL)) ||
 			 say("clFinish", cl->clFinish(device->queue));
 		if (seconds)
 			seconds[r] = bench_now() - start;

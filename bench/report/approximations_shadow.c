@@ -60,9 +60,9 @@ static void lambda(int quick, report_rows *rows)
 			for (int m = 0; m < ALBEDO_COSINES; m++) {
 				double off[2] = {0.0, 0.0};
 				for (int level = 0; level < 2; level++) {
-					albedo_nodes *nodes = albedo_nodes_make(LOBE_NDF_BECKMANN, NULL,
-										albedo_alphas[a], albedo_cosines[m],
-										sides[level]);
+					albedo_nodes *nodes =
+						albedo_nodes_make(LOBE_NDF_BECKMANN, NULL, albedo_alphas[a],
+								  albedo_cosines[m], sides[level]);
 					const double oz = (double)nodes->oz;
 					const float or = fmaxf((float)albedo_alphas[a] * nodes->ox, 1e-10f);
 					const double ho = (double)one(way, &p, or, nodes->oz, 0.0f);
@@ -122,14 +122,14 @@ static void masking(approximations_group group, double alpha, int quick, report_
 		for (int m = 0; m < ALBEDO_COSINES && group == GROUP_MASKING; m++) {
 			double off[2] = {0.0, 0.0};
 			for (int level = 0; level < 2; level++) {
-				albedo_nodes *nodes = albedo_nodes_make(LOBE_NDF_GGX, NULL, alpha, albedo_cosines[m],
-									sides[level]);
+				albedo_nodes *nodes =
+					albedo_nodes_make(LOBE_NDF_GGX, NULL, alpha, albedo_cosines[m], sides[level]);
 				for (size_t i = 0; i < nodes->n; i++) {
 					float r;
 					run_loop(way, &p, 1, &nodes->oz, &nodes->ox, nodes->iz + i, nodes->ix + i,
 						 nodes->iy + i, &r, &r, &r);
-					off[level] += nodes->weight[i] *
-						      ((double)r / (double)nodes->oz - nodes->smith[i]);
+					off[level] +=
+						nodes->weight[i] * ((double)r / (double)nodes->oz - nodes->smith[i]);
 				}
 				albedo_nodes_free(nodes);
 			}
@@ -137,7 +137,8 @@ static void masking(approximations_group group, double alpha, int quick, report_
 		}
 		snprintf(of, sizeof of, "alpha %g", alpha);
 		approximations_error_row(rows, approximations_groups[group], way->name, of,
-					 group == GROUP_MASKING ? "G2 of GGX; cos 0 to 1" : "G2 across GGX; cos 0 to 1", &e);
+					 group == GROUP_MASKING ? "G2 of GGX; cos 0 to 1" : "G2 across GGX; cos 0 to 1",
+					 &e);
 	}
 }
 
@@ -163,8 +164,10 @@ static double mean_facing(lobe_distribution d, unsigned ndf, double alpha, doubl
 	const lobe_vec3 o = lobe_vec3_make((float)sqrt((1.0 - cosine) * (1.0 + cosine)), 0.0f, (float)cosine);
 	double sum = 0.0;
 	for (int i = 0; i < side * side; i++) {
-		const lobe_vec2 u = lobe_vec2_make(((float)(i % side) + 0.5f) / (float)side, ((float)(i / side) + 0.5f) / (float)side);
-		sum += (double)lobe_dot(o, lobe_smith_visible(tabled, o, u)) - (double)lobe_dot(o, lobe_smith_visible(own, o, u));
+		const lobe_vec2 u = lobe_vec2_make(((float)(i % side) + 0.5f) / (float)side,
+						   ((float)(i / side) + 0.5f) / (float)side);
+		sum += (double)lobe_dot(o, lobe_smith_visible(tabled, o, u)) -
+		       (double)lobe_dot(o, lobe_smith_visible(own, o, u));
 	}
 	return sum / ((double)side * side);
 }
@@ -187,39 +190,47 @@ static int tables(unsigned ndf, int quick, report_rows *rows)
 	for (uint32_t i = 0; i < samples; i++) {
 		/* tan/alpha from .01 to 3 of a facet (D down to 1e-4 of its peak), cot/alpha from .01 to 3 of a direction: relative. */
 		const double t = 0.01 * pow(300.0, ((double)i + 0.5) / (double)samples);
-		const double x = (double)(float)t, exact_d = ndf == LOBE_NDF_GGX ? ggx_profile(NULL, x) : beckmann_profile(NULL, x);
+		const double x = (double)(float)t,
+			     exact_d = ndf == LOBE_NDF_GGX ? ggx_profile(NULL, x) : beckmann_profile(NULL, x);
 		const lobe_facet_density got = lobe_tabulated_density(d, lobe_vec3_make((float)x, 0.0f, 1.0f));
 		approximations_error_add(&e[0], (double)got.inv * (double)got.inv * (double)got.factor / exact_d, 1.0,
 					 "tan/alpha %.3g", x);
-		const double exact_h = ndf == LOBE_NDF_GGX ? 0.5 / (sqrt(1.0 + x * x) + x) : x * (1.0 / exact_g1(1.0, x) - 1.0);
-		approximations_error_add(&e[1],
-					 (double)lobe_tabulated_hidden(d, lobe_vec3_make(1.0f, 0.0f, (float)x)) / exact_h,
-					 1.0, "cot/alpha %.3g", x);
+		const double exact_h =
+			ndf == LOBE_NDF_GGX ? 0.5 / (sqrt(1.0 + x * x) + x) : x * (1.0 / exact_g1(1.0, x) - 1.0);
+		approximations_error_add(
+			&e[1], (double)lobe_tabulated_hidden(d, lobe_vec3_make(1.0f, 0.0f, (float)x)) / exact_h, 1.0,
+			"cot/alpha %.3g", x);
 	}
 	/* Albedo of the lobe with D and Lambda of the table. */
 	for (int a = 0; a < ALBEDO_ALPHAS; a++)
 		for (int m = 0; m < ALBEDO_COSINES; m++) {
 			double all[2] = {0};
 			for (int level = 0; level < 2; level++) {
-				albedo_nodes *nodes = albedo_nodes_make(ndf, NULL, albedo_alphas[a], albedo_cosines[m], sides[level]);
-				const lobe_smith exact = lobe_smith_make(lobe_distribution_make(ndf), stretch(albedo_alphas[a]));
+				albedo_nodes *nodes =
+					albedo_nodes_make(ndf, NULL, albedo_alphas[a], albedo_cosines[m], sides[level]);
+				const lobe_smith exact =
+					lobe_smith_make(lobe_distribution_make(ndf), stretch(albedo_alphas[a]));
 				const lobe_smith tabled = lobe_smith_make(d, exact.map);
 				const lobe_vec3 o = lobe_vec3_make(nodes->ox, 0.0f, nodes->oz);
 				for (size_t i = 0; i < nodes->n; i++) {
 					const lobe_vec3 h = lobe_vec3_make(nodes->hx[i], nodes->hy[i], nodes->hz[i]);
 					const lobe_vec3 in = lobe_vec3_make(nodes->ix[i], nodes->iy[i], nodes->iz[i]);
-					const double ratio = (double)lobe_smith_d(tabled, h) / (double)lobe_smith_d(exact, h);
+					const double ratio =
+						(double)lobe_smith_d(tabled, h) / (double)lobe_smith_d(exact, h);
 					const double g = (double)lobe_smith_g2(tabled, o, in) / (double)o.z;
 					all[level] += nodes->weight[i] * (ratio * g - nodes->smith[i]);
 				}
 				albedo_nodes_free(nodes);
 			}
-			approximations_error_albedo(&e[0], all[1], fabs(all[1] - all[0]) / 3.0, albedo_alphas[a], albedo_cosines[m]);
+			approximations_error_albedo(&e[0], all[1], fabs(all[1] - all[0]) / 3.0, albedo_alphas[a],
+						    albedo_cosines[m]);
 			/* Smooth, unlike an albedo, whose horizon would ask for a finer grid. */
 			double facing[2];
 			for (int level = 0; level < 2; level++)
-				facing[level] = mean_facing(d, ndf, albedo_alphas[a], albedo_cosines[m], 2 * sides[level]);
-			approximations_error_add(&e[2], facing[1], 0.0, "alpha %g; cos %g", albedo_alphas[a], albedo_cosines[m]);
+				facing[level] =
+					mean_facing(d, ndf, albedo_alphas[a], albedo_cosines[m], 2 * sides[level]);
+			approximations_error_add(&e[2], facing[1], 0.0, "alpha %g; cos %g", albedo_alphas[a],
+						 albedo_cosines[m]);
 			e[2].reference = fmax(e[2].reference, fabs(facing[1] - facing[0]) / 3.0);
 		}
 	approximations_error_row(rows, "density", "table", name, "D; relative; tan/alpha .01 to 3", &e[0]);

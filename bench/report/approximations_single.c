@@ -1,5 +1,5 @@
 /* approximations_single.c - the timed lobes in single precision. */
-#define LOBE_FN static inline __attribute__((always_inline, unused))
+#define LOBE_FN       static inline __attribute__((always_inline, unused))
 #define LOBE_FN_APART static __attribute__((noinline, unused))
 #define PRECISION     approximations_single_time
 

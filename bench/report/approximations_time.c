@@ -146,7 +146,8 @@ static int on_device(int quick, report_rows *rows)
 		from[k] = in[k] = memory + LOBE_PROFILE_WORDS + k * DEVICE_LENGTH;
 	for (size_t w = 0; w < approximations_way_count() + approximations_builtin_count() && !failed; w++) {
 		const int own = w < approximations_way_count();
-		const approximations_builtin *builtin = &approximations_builtins[own ? 0 : w - approximations_way_count()];
+		const approximations_builtin *builtin =
+			&approximations_builtins[own ? 0 : w - approximations_way_count()];
 		const approximations_way *way = &approximations_ways[own ? w : 0];
 		double seconds[REPEATS_MAX + 2];
 		if (own && !way->text)

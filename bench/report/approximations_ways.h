@@ -11,7 +11,7 @@
 #define APPROXIMATIONS_SET                                                                                             \
 	typedef struct {                                                                                               \
 		lobe_microsurface surface;                                                                             \
-		lobe_rgb n, k;       /* index of a metal or, in n, of a dielectric */                                 \
+		lobe_rgb n, k; /* index of a metal or, in n, of a dielectric */                                        \
 		lobe_film film;                                                                                        \
 		lobe_real f0, depth; /* of Schlick's curve; of the dip, f82 */                                         \
 		lobe_real exponent;  /* of a generalised curve that is fitted ... */                                   \
@@ -23,8 +23,7 @@ APPROXIMATIONS_SET
 #define V3 lobe_vec3_make
 #define APPROXIMATIONS_WAYS(WAY, WAY_3, HOST, HOST_3)                                                                  \
 	WAY(LAMBDA, lambda_erf, "erf and exp", 1, lobe_beckmann_hidden(V3(x, LOBE_R(0.0), y)))                         \
-	WAY(LAMBDA, lambda_ierfc, "one polynomial", 0,                                                                 \
-	    LOBE_R(0.5) * (lobe_beckmann_t(V3(x, LOBE_R(0.0), y)) - y))                                                \
+	WAY(LAMBDA, lambda_ierfc, "one polynomial", 0, LOBE_R(0.5) * (lobe_beckmann_t(V3(x, LOBE_R(0.0), y)) - y))     \
 	WAY(LAMBDA, lambda_rational, "Walter's rational", 0, lobe_beckmann_hidden_rational(V3(x, LOBE_R(0.0), y)))     \
 	HOST(LAMBDA, lambda_libm, "textbook form by libm", 0,                                                          \
 	     y *(0.5f * (erff(y / x) - 1.0f) + 0.28209479f * (x / y) * expf(-(y / x) * (y / x))))                      \
@@ -40,8 +39,7 @@ APPROXIMATIONS_SET
 	    lobe_fresnel_schlick_power(x, p.f0, LOBE_R(1.0), p.exponent))                                              \
 	WAY(CONDUCTOR, conductor_hoffman, "generalised: exponent and dip", 0,                                          \
 	    lobe_fresnel_hoffman(x, p.f0, LOBE_R(1.0), LOBE_R(5.0), p.general))                                        \
-	WAY(CONDUCTOR, conductor_artist, "Gulbrandsen; mapped each call", 0,                                           \
-	    approximations_artist(x, p.f0, p.edge))                                                                    \
+	WAY(CONDUCTOR, conductor_artist, "Gulbrandsen; mapped each call", 0, approximations_artist(x, p.f0, p.edge))   \
 	WAY(CONDUCTOR, conductor_constant, "constant", 0, p.f0 + LOBE_R(0.0) * x)                                      \
 	WAY_3(FILM, film_series, "Belcour-Barla series", 0, lobe_thin_film_conductor_rgb(x, p.film, p.n, p.k))         \
 	WAY_3(FILM, film_none, "no film", 0, lobe_fresnel_conductor_rgb(x, p.n, p.k))                                  \
@@ -70,8 +68,7 @@ APPROXIMATIONS_SET
 #define WAY_MASKING(masking, joint) approximations_g2(p.surface, masking, joint, x, y, z, s, t)
 #define WAY_ACROSS(across)          approximations_g2_across(p.surface, across, x, y, z, s, t)
 #define APPROXIMATIONS_MASKING(WAY)                                                                                    \
-	WAY(MASKING, smith_height, "Smith; height-correlated", 1,                                                      \
-	    WAY_MASKING(LOBE_MASKING_SMITH, LOBE_JOINT_HEIGHT))                                                        \
+	WAY(MASKING, smith_height, "Smith; height-correlated", 1, WAY_MASKING(LOBE_MASKING_SMITH, LOBE_JOINT_HEIGHT))  \
 	WAY(MASKING, smith_separable, "Smith; separable", 0, WAY_MASKING(LOBE_MASKING_SMITH, LOBE_JOINT_SEPARABLE))    \
 	WAY(MASKING, smith_direction, "Smith; direction-correlated", 0,                                                \
 	    WAY_MASKING(LOBE_MASKING_SMITH, LOBE_JOINT_DIRECTION))                                                     \
@@ -119,8 +116,8 @@ APPROXIMATIONS_SET
 		const lobe_fresnel_index index = lobe_fresnel_artist(lobe_fma(LOBE_R(0x1p-60), x, f0), edge);          \
 		return lobe_fresnel_conductor(x, index.n, index.k);                                                    \
 	}                                                                                                              \
-	/* without the branches of lobe_masking_g2_over_cos, which would keep a loop from vectorising */              \
-	LOBE_FN lobe_real approximations_g2_plain(lobe_microsurface q, lobe_seen o, lobe_seen i, lobe_seen_facet m)     \
+	/* without the branches of lobe_masking_g2_over_cos, which would keep a loop from vectorising */               \
+	LOBE_FN lobe_real approximations_g2_plain(lobe_microsurface q, lobe_seen o, lobe_seen i, lobe_seen_facet m)    \
 	{                                                                                                              \
 		const lobe_real k = lobe_masking_width(q);                                                             \
 		const lobe_real both = o.inv_length * i.cosine;                                                        \

@@ -74,9 +74,11 @@ static void write_counts(report_page *page, const report_table *t)
 {
 	double all[5] = {0};
 	static const char *const columns[5] = {"elements", "samples", "non_finite", "negative", "pdf_differs"};
-	report_text(page, "### What must never come out\n\nEach element is an eval, a pdf and a sample of a random corner, and "
-			  "then the eval and pdf of what was sampled.\n\n| lobe | elements | samples | not finite | "
-			  "negative | sample().pdf is not pdf() |\n|---|--:|--:|--:|--:|--:|\n");
+	report_text(
+		page,
+		"### What must never come out\n\nEach element is an eval, a pdf and a sample of a random corner, and "
+		"then the eval and pdf of what was sampled.\n\n| lobe | elements | samples | not finite | "
+		"negative | sample().pdf is not pdf() |\n|---|--:|--:|--:|--:|--:|\n");
 	for (size_t l = 0; l < STABILITY_LOBES; l++) {
 		double n[5] = {0};
 		for (size_t row = 0; row < report_table_rows(t); row++)
@@ -84,24 +86,27 @@ static void write_counts(report_page *page, const report_table *t)
 				n[k] += report_number(t, row, columns[k]);
 		for (int k = 0; k < 5; k++)
 			all[k] += n[k];
-		report_text(page, "| %s | %.0f | %.0f | %.0f | %.0f | %.0f |\n", stability_lobe_names[l], n[0], n[1], n[2], n[3],
-			    n[4]);
+		report_text(page, "| %s | %.0f | %.0f | %.0f | %.0f | %.0f |\n", stability_lobe_names[l], n[0], n[1],
+			    n[2], n[3], n[4]);
 	}
 	report_text(page, "| **all** | %.0f | %.0f | %.0f | %.0f | %.0f |\n\n", all[0], all[1], all[2], all[3], all[4]);
-	report_finding(page,
-		       "Of %.3g results at stiff and extreme corners of %d lobes, %.0f are not finite and %.0f negative; "
-		       "sample().pdf is pdf() bit for bit in %.6g %% of %.3g samples.",
-		       all[0] * 3.0, STABILITY_LOBES, all[2], all[3], 100.0 * (1.0 - all[4] / all[1]), all[1]);
+	report_finding(
+		page,
+		"Of %.3g results at stiff and extreme corners of %d lobes, %.0f are not finite and %.0f negative; "
+		"sample().pdf is pdf() bit for bit in %.6g %% of %.3g samples.",
+		all[0] * 3.0, STABILITY_LOBES, all[2], all[3], 100.0 * (1.0 - all[4] / all[1]), all[1]);
 }
 
-static void write_row(report_page *page, const char *name, const char *verb, const char *reference, const stability_tally *s)
+static void write_row(report_page *page, const char *name, const char *verb, const char *reference,
+		      const stability_tally *s)
 {
 	const double n = s->compared ? (double)s->compared : 1.0;
-	report_text(page, "| %s | %s | %s | %lu | %.2g | %.3g | %.3g %% | %lu | %lu | %lu | %lu | %.3g | %.3g | %.1e |\n", name,
-		    verb, reference, s->compared, stability_percentile(s->bins, 0.5), stability_percentile(s->bins, 0.9999),
-		    100.0 * (double)s->above / n, s->classes[STABILITY_UNDETERMINED], s->classes[STABILITY_TINY],
-		    s->classes[STABILITY_OF_ONE], s->classes[STABILITY_PLAIN],
-		    stability_percentile(s->bins_of_one, 0.9999), s->worst_of_one, s->own_error);
+	report_text(
+		page, "| %s | %s | %s | %lu | %.2g | %.3g | %.3g %% | %lu | %lu | %lu | %lu | %.3g | %.3g | %.1e |\n",
+		name, verb, reference, s->compared, stability_percentile(s->bins, 0.5),
+		stability_percentile(s->bins, 0.9999), 100.0 * (double)s->above / n, s->classes[STABILITY_UNDETERMINED],
+		s->classes[STABILITY_TINY], s->classes[STABILITY_OF_ONE], s->classes[STABILITY_PLAIN],
+		stability_percentile(s->bins_of_one, 0.9999), s->worst_of_one, s->own_error);
 }
 
 static void write_errors(report_page *page, const report_table *t)
@@ -110,31 +115,45 @@ static void write_errors(report_page *page, const report_table *t)
 	report_text(
 		page,
 		"### Errors over the floor\n\n"
-		"The **floor** of a case is what half a unit in the last place of each input (components of wo and wi, widths, "
-		"indices) does to the exact answer, root of the sum of squares, and at least half an ulp of the answer. "
+		"The **floor** of a case is what half a unit in the last place of each input (components of wo and wi, "
+		"widths, "
+		"indices) does to the exact answer, root of the sum of squares, and at least half an ulp of the "
+		"answer. "
 		"**Error/floor** is therefore what the library's arithmetic adds to what the question leaves open: a "
 		"correctly rounded result is at most 1.\n\n"
-		"*textbook*: the exact answer is the papers' formulas (slopes, tangents, normalised half vectors, complex "
-		"roots), written anew in long double; its own error, measured against 113 bits on one case of 64 and on "
-		"every one above 8 floors, is the last column, in floors. *double build*: the library compiled in double, where "
-		"there is no textbook (films in RGB, sums over facets, tables, maskings other than Smith's). *direction*: a component of what "
+		"*textbook*: the exact answer is the papers' formulas (slopes, tangents, normalised half vectors, "
+		"complex "
+		"roots), written anew in long double; its own error, measured against 113 bits on one case of 64 and "
+		"on "
+		"every one above 8 floors, is the last column, in floors. *double build*: the library compiled in "
+		"double, where "
+		"there is no textbook (films in RGB, sums over facets, tables, maskings other than Smith's). "
+		"*direction*: a component of what "
 		"a sample returns, against the sampler's map of u; a u counts as the cell of 2^-24 that it is.\n\n"
-		"Every case above %d floors is counted under a reason: **undetermined**, the floor is above a tenth of the answer; "
-		"**tiny**, below 1e-30, where factors underflow; **of one**, a reflectance or transmittance whose header "
+		"Every case above %d floors is counted under a reason: **undetermined**, the floor is above a tenth of "
+		"the answer; "
+		"**tiny**, below 1e-30, where factors underflow; **of one**, a reflectance or transmittance whose "
+		"header "
 		"promises some roundings of 1, not of itself (`core/fresnel.h`: metals whose index is nearly air's; "
-		"`fresnel_schlick.h`: curves that fall to f90 = 0; `airy.h`: interference), and with its error counted in "
-		"roundings of 1 (2^-24; films 2^-22) it is within %d, so for a cosine to the facet near 1 and for the two points of the "
-		"unit sphere that add up to a sampled normal; **none**, nothing of that. Undetermined and tiny cases count as 0 in the "
+		"`fresnel_schlick.h`: curves that fall to f90 = 0; `airy.h`: interference), and with its error counted "
+		"in "
+		"roundings of 1 (2^-24; films 2^-22) it is within %d, so for a cosine to the facet near 1 and for the "
+		"two points of the "
+		"unit sphere that add up to a sampled normal; **none**, nothing of that. Undetermined and tiny cases "
+		"count as 0 in the "
 		"percentiles.\n\n"
-		"| lobe | result | reference | compared | median | 99.99 %% | above %d | undetermined | tiny | of one | none | 99.99 "
+		"| lobe | result | reference | compared | median | 99.99 %% | above %d | undetermined | tiny | of one "
+		"| none | 99.99 "
 		"%% of one | worst of one | own error |\n|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
 		STABILITY_LIMIT, STABILITY_LIMIT, STABILITY_LIMIT);
 	for (size_t l = 0; l < STABILITY_LOBES; l++)
 		for (int v = 0; v < STABILITY_VERBS; v++)
 			for (int k = 0; k < 2; k++) {
-				const stability_tally s = sum(t, stability_lobe_names[l], stability_verb_names[v], references[k]);
+				const stability_tally s =
+					sum(t, stability_lobe_names[l], stability_verb_names[v], references[k]);
 				if (s.compared)
-					write_row(page, stability_lobe_names[l], stability_verb_names[v], references[k], &s);
+					write_row(page, stability_lobe_names[l], stability_verb_names[v], references[k],
+						  &s);
 			}
 	const stability_tally all = sum(t, NULL, NULL, NULL), textbook = sum(t, NULL, NULL, "textbook"),
 			      other = sum(t, NULL, NULL, "double build");
@@ -142,35 +161,43 @@ static void write_errors(report_page *page, const report_table *t)
 	write_row(page, "**all**", "", "double build", &other);
 	write_row(page, "**all**", "", "", &all);
 	report_text(page, "\n");
+	report_finding(
+		page,
+		"Error over the conditioning floor against the textbook in long double: median %.2g, %.3g at the "
+		"99.99th percentile of %.3g results with reflectances counted in roundings of 1 (%.3g in roundings of "
+		"themselves); above %d and explained by nothing: %lu.",
+		stability_percentile(textbook.bins, 0.5), stability_percentile(textbook.bins_of_one, 0.9999),
+		(double)textbook.compared, stability_percentile(textbook.bins, 0.9999), STABILITY_LIMIT,
+		textbook.classes[STABILITY_PLAIN]);
 	report_finding(page,
-		       "Error over the conditioning floor against the textbook in long double: median %.2g, %.3g at the "
-		       "99.99th percentile of %.3g results with reflectances counted in roundings of 1 (%.3g in roundings of "
-		       "themselves); above %d and explained by nothing: %lu.",
-		       stability_percentile(textbook.bins, 0.5), stability_percentile(textbook.bins_of_one, 0.9999),
-		       (double)textbook.compared, stability_percentile(textbook.bins, 0.9999), STABILITY_LIMIT,
-		       textbook.classes[STABILITY_PLAIN]);
-	report_finding(page,
-		       "What loses digits beyond the question: %.2g %% of results, by reflectances that are exact to roundings of 1, "
-		       "not of themselves (metals with an index near air's, Schlick's curve falling to 0, interference); and %lu of "
+		       "What loses digits beyond the question: %.2g %% of results, by reflectances that are exact to "
+		       "roundings of 1, "
+		       "not of themselves (metals with an index near air's, Schlick's curve falling to 0, "
+		       "interference); and %lu of "
 		       "%.3g results of films and comparison lobes (%.2g at the 99.99th percentile).",
-		       100.0 * (double)all.classes[STABILITY_OF_ONE] / (double)all.compared, other.classes[STABILITY_PLAIN],
-		       (double)other.compared, stability_percentile(other.bins_of_one, 0.9999));
+		       100.0 * (double)all.classes[STABILITY_OF_ONE] / (double)all.compared,
+		       other.classes[STABILITY_PLAIN], (double)other.compared,
+		       stability_percentile(other.bins_of_one, 0.9999));
 }
 
 static void write_worst(report_page *page, const report_table *t)
 {
 	size_t textbook = 0;
-	report_text(page, "### Worst cases\n\nFound by ascents (simplex method on the logarithms of the parameters and on angles, then "
-			  "single ulps) from the worst of some hundred draws each, on error over floor, undetermined and tiny "
-			  "cases apart; *of one* as above. Inputs as hexadecimal floats, parameters p*n* as the arguments of "
-			  "`make` in `tests/cases_make.h`.\n\n| lobe | result | yardstick | drawn | found | value | exact | error "
-			  "[ulp] | floor (directions') | reason | inputs |\n|---|---|---|--:|--:|--:|--:|--:|--:|---|---|\n");
+	report_text(
+		page,
+		"### Worst cases\n\nFound by ascents (simplex method on the logarithms of the parameters and on "
+		"angles, then "
+		"single ulps) from the worst of some hundred draws each, on error over floor, undetermined and tiny "
+		"cases apart; *of one* as above. Inputs as hexadecimal floats, parameters p*n* as the arguments of "
+		"`make` in `tests/cases_make.h`.\n\n| lobe | result | yardstick | drawn | found | value | exact | "
+		"error "
+		"[ulp] | floor (directions') | reason | inputs |\n|---|---|---|--:|--:|--:|--:|--:|--:|---|---|\n");
 	for (size_t row = 0; row < report_table_rows(t); row++) {
 		report_text(page, "| %s | %s | %s | %.3g | %.3g | %s | %s | %s | %s (%s) | %s | `%s` |\n",
 			    report_cell(t, row, "lobe"), report_cell(t, row, "verb"), report_cell(t, row, "yardstick"),
-			    report_number(t, row, "drawn"), report_number(t, row, "found"), report_cell(t, row, "value"),
-			    report_cell(t, row, "exact"), report_cell(t, row, "ulp"), report_cell(t, row, "floor"),
-			    report_cell(t, row, "floor_directions"),
+			    report_number(t, row, "drawn"), report_number(t, row, "found"),
+			    report_cell(t, row, "value"), report_cell(t, row, "exact"), report_cell(t, row, "ulp"),
+			    report_cell(t, row, "floor"), report_cell(t, row, "floor_directions"),
 			    report_number(t, row, "found") > STABILITY_LIMIT ? report_cell(t, row, "class") : "-",
 			    report_cell(t, row, "inputs"));
 		if (is(t, row, "yardstick", "floor of one") && is(t, row, "reference", "textbook") &&
@@ -182,8 +209,9 @@ static void write_worst(report_page *page, const report_table *t)
 	report_finding(page,
 		       "The worst that ascents from many starts find against the textbook is %.3g floors (reflectances "
 		       "counted in roundings of 1): %s of %s, %s for %s.",
-		       report_number(t, textbook, "found"), report_cell(t, textbook, "verb"), report_cell(t, textbook, "lobe"),
-		       report_cell(t, textbook, "value"), report_cell(t, textbook, "exact"));
+		       report_number(t, textbook, "found"), report_cell(t, textbook, "verb"),
+		       report_cell(t, textbook, "lobe"), report_cell(t, textbook, "value"),
+		       report_cell(t, textbook, "exact"));
 }
 
 /* The largest view cosine from which on down the median floor is above a hundredth; 0: none. */
@@ -210,15 +238,19 @@ static void write_maps(report_page *page, const report_table *t)
 	static const double alphas[3] = {1e-4, 1e-3, 1e-2};
 	char text[512];
 	size_t used = 0;
-	report_text(page, "### Over width and angle\n\nwi is what the lobe itself samples: where its value counts. Cells hold the "
-			  "worst case, the floor its median. Where the floor is above a hundredth, the answer is known to two digits "
+	report_text(page, "### Over width and angle\n\nwi is what the lobe itself samples: where its value counts. "
+			  "Cells hold the "
+			  "worst case, the floor its median. Where the floor is above a hundredth, the answer is known "
+			  "to two digits "
 			  "at best, whoever computes it.\n\n");
 	for (size_t m = 0; m < sizeof names / sizeof *names; m++) {
 		char file[64], definitions[256];
 		snprintf(file, sizeof file, "stability_map_%s.png", names[m][0]);
-		snprintf(definitions, sizeof definitions, "MAP='%s'; TITLE='%s'; FILE='%s'", names[m][0], names[m][1], file);
+		snprintf(definitions, sizeof definitions, "MAP='%s'; TITLE='%s'; FILE='%s'", names[m][0], names[m][1],
+			 file);
 		report_gnuplot(page, "stability_map.gp", definitions);
-		report_figure(page, file, "%s: error in ulp, error over floor, and the floor, of eval and pdf.", names[m][1]);
+		report_figure(page, file, "%s: error in ulp, error over floor, and the floor, of eval and pdf.",
+			      names[m][1]);
 	}
 	report_text(page, "Median floor of pdf above 1 %% at and below the view cosine of:\n\n| alpha |");
 	for (size_t m = 0; m < sizeof names / sizeof *names; m++)
@@ -236,12 +268,13 @@ static void write_maps(report_page *page, const report_table *t)
 		report_text(page, "\n");
 		const double end = ends_at(t, names[0][0], alphas[k]);
 		if (end > 0.0 && used < sizeof text)
-			used += (size_t)snprintf(text + used, sizeof text - used, "%scosine %.2g at alpha %g", used ? ", " : "", end,
-						 alphas[k]);
+			used += (size_t)snprintf(text + used, sizeof text - used, "%scosine %.2g at alpha %g",
+						 used ? ", " : "", end, alphas[k]);
 	}
 	report_text(page, "\n");
 	report_finding(page,
-		       "Where single precision ends: half an ulp of the directions moves a GGX metal's density by more than 1 %% from "
+		       "Where single precision ends: half an ulp of the directions moves a GGX metal's density by more "
+		       "than 1 %% from "
 		       "a view %s down; no formula can do better with directions of floats.",
 		       used ? text : "cosine of 1e-7");
 }
@@ -250,13 +283,19 @@ static void write_forms(report_page *page, const report_table *t)
 {
 	char text[512];
 	size_t used = 0;
-	report_text(page, "### As textbooks print it\n\nThe same inputs through the printed form and through the library's, both in single "
-			  "precision; worst relative error and worst error over floor, cases with a floor above a tenth apart.\n\n"
-			  "| what | printed | worst error | /floor | not a number | the library | worst error | /floor |\n"
-			  "|---|---|--:|--:|--:|---|--:|--:|\n");
-	report_readme(page, "Forms as textbooks print them and the library's, both in single precision, at stiff and extreme corners: worst "
-			    "relative error, and worst error over what half an ulp of the inputs does to the exact answer.\n\n"
-			    "| what | printed: error | over floor | library: error | over floor |\n|---|--:|--:|--:|--:|\n");
+	report_text(page,
+		    "### As textbooks print it\n\nThe same inputs through the printed form and through the library's, "
+		    "both in single "
+		    "precision; worst relative error and worst error over floor, cases with a floor above a tenth "
+		    "apart.\n\n"
+		    "| what | printed | worst error | /floor | not a number | the library | worst error | /floor |\n"
+		    "|---|---|--:|--:|--:|---|--:|--:|\n");
+	report_readme(
+		page,
+		"Forms as textbooks print them and the library's, both in single precision, at stiff and extreme "
+		"corners: worst "
+		"relative error, and worst error over what half an ulp of the inputs does to the exact answer.\n\n"
+		"| what | printed: error | over floor | library: error | over floor |\n|---|--:|--:|--:|--:|\n");
 	for (int f = 0; f < STABILITY_FORMS; f++) {
 		double worst[4] = {0}, failed = 0.0;
 		static const char *const columns[4] = {"textbook", "textbook_over_floor", "ours", "ours_over_floor"};
@@ -268,8 +307,10 @@ static void write_forms(report_page *page, const report_table *t)
 				worst[k] = fmax(worst[k], report_number(t, row, columns[k]));
 		}
 		report_text(page, "| %s | %s | %.2g | %.2g | %.0f | %s | %.2g | %.2g |\n", stability_forms[f].name,
-			    stability_forms[f].textbook, worst[0], worst[1], failed, stability_forms[f].ours, worst[2], worst[3]);
-		report_readme(page, "| %s | %.2g | %.2g | %.2g | %.2g |\n", stability_forms[f].name, worst[0], worst[1], worst[2], worst[3]);
+			    stability_forms[f].textbook, worst[0], worst[1], failed, stability_forms[f].ours, worst[2],
+			    worst[3]);
+		report_readme(page, "| %s | %.2g | %.2g | %.2g | %.2g |\n", stability_forms[f].name, worst[0], worst[1],
+			      worst[2], worst[3]);
 		if (f < 5 && used < sizeof text)
 			used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %.1g (%.1g)", used ? ", " : "",
 						 stability_forms[f].name, worst[1], worst[3]);
@@ -277,18 +318,21 @@ static void write_forms(report_page *page, const report_table *t)
 	report_text(page, "\n");
 	report_readme(page, "\n![](doc/stability_forms.png)\n\n");
 	report_gnuplot(page, "stability_forms.gp", NULL);
-	report_figure(page, "stability_forms.png", "Worst relative error of the printed form and of the library's over what "
-						  "makes the printed one fail, with the mean floor.");
+	report_figure(page, "stability_forms.png",
+		      "Worst relative error of the printed form and of the library's over what "
+		      "makes the printed one fail, with the mean floor.");
 	report_finding(page, "Printed forms in single precision, worst error over floor (the library's): %s.", text);
 }
 
 static void write(report_page *page, const report_table *const *tables, int quick)
 {
 	(void)quick;
-	report_text(page, "Random corners of every lobe: alpha 1e-4 to 1, anisotropy to 1:1e4, cosines to 1e-7 on both sides and to 1, "
-			  "eta 1 +- 1e-7, 1/1000 and 1000, k to 100, u at 0, 1 - 2^-24 and subnormal, mean slopes to 100, "
-			  "correlations to +-0.9999, directions off unit length by up to four ulp; wi mostly where the lobe "
-			  "is.\n\n");
+	report_text(page,
+		    "Random corners of every lobe: alpha 1e-4 to 1, anisotropy to 1:1e4, cosines to 1e-7 on both sides "
+		    "and to 1, "
+		    "eta 1 +- 1e-7, 1/1000 and 1000, k to 100, u at 0, 1 - 2^-24 and subnormal, mean slopes to 100, "
+		    "correlations to +-0.9999, directions off unit length by up to four ulp; wi mostly where the lobe "
+		    "is.\n\n");
 	write_counts(page, tables[1]);
 	write_errors(page, tables[0]);
 	write_worst(page, tables[2]);

@@ -19,13 +19,7 @@
 /* f |cos|; density; weight of a sample in the direction that it returned; that direction, one component of it, of lobes
  * whose samplers are maps with a name (not Beckmann's inverted distribution, nor the choices of the comparison lobes). For
  * delta lobes pdf is the probability of the sample's event. */
-typedef enum {
-	STABILITY_EVAL,
-	STABILITY_PDF,
-	STABILITY_WEIGHT,
-	STABILITY_DIRECTION,
-	STABILITY_VERBS
-} stability_verb;
+typedef enum { STABILITY_EVAL, STABILITY_PDF, STABILITY_WEIGHT, STABILITY_DIRECTION, STABILITY_VERBS } stability_verb;
 
 extern const char *const stability_verb_names[STABILITY_VERBS];
 
@@ -150,7 +144,8 @@ size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS])
 void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size);
 
 /* Every lobe of lobes.def. */
-enum { STABILITY_LOBES = 0
+enum {
+	STABILITY_LOBES = 0
 #define LOBE_X(NAME, name, value) +1
 #include "lobe/lobes/lobes.def"
 #undef LOBE_X

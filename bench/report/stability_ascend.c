@@ -82,7 +82,8 @@ static double within(double x, double lo, double hi) { return x < lo ? lo : x > 
 /* Parameter k moved by a factor, and kept in its domain. */
 static double moved(lobe_uint kind, int k, double old, double log_factor)
 {
-	const int eta = transmits_at(kind), smooth = kind == LOBE_KIND_SMOOTH_DIELECTRIC || kind == LOBE_KIND_THIN_DIELECTRIC;
+	const int eta = transmits_at(kind),
+		  smooth = kind == LOBE_KIND_SMOOTH_DIELECTRIC || kind == LOBE_KIND_THIN_DIELECTRIC;
 	const double factor = exp(within(log_factor, -20.0, 20.0));
 	const int colour = kind == LOBE_KIND_LAMBERT || kind == LOBE_KIND_MIRROR || kind == LOBE_KIND_GGX_SCHLICK ||
 			   kind == LOBE_KIND_MICROFACET_DIFFUSE;
@@ -99,7 +100,8 @@ static double moved(lobe_uint kind, int k, double old, double log_factor)
 	else if (film && k == 3)
 		x = within(x, 1e-3, 1e3);
 	else if (k < 2)
-		x = colour && kind != LOBE_KIND_GGX_SCHLICK && !free ? within(x, 0.0, 1.0) : within(x, free ? 1e-6 : 1e-4, 1.0);
+		x = colour && kind != LOBE_KIND_GGX_SCHLICK && !free ? within(x, 0.0, 1.0)
+								     : within(x, free ? 1e-6 : 1e-4, 1.0);
 	else if (k >= 11)
 		x = within(x, -100.0, 100.0);
 	else if (colour)
@@ -133,7 +135,8 @@ static int place(const ascent *a, const gsl_vector *v, stability_case *c)
 	}
 	const int across = o[2] * i[2] < 0.0 && eta_at;
 	const double old = eta_at ? a->start.parameter[eta_at] : 1.0, now = eta_at ? c->parameter[eta_at] : 1.0;
-	const double e_old = across ? (o[2] > 0.0 ? old : 1.0 / old) : 1.0, e_now = across ? (o[2] > 0.0 ? now : 1.0 / now) : 1.0;
+	const double e_old = across ? (o[2] > 0.0 ? old : 1.0 / old) : 1.0,
+		     e_now = across ? (o[2] > 0.0 ? now : 1.0 / now) : 1.0;
 	for (int k = 0; k < 3; k++)
 		m[k] = o[k] + e_old * i[k];
 	if (m[0] == 0.0 && m[1] == 0.0 && m[2] == 0.0)

@@ -41,7 +41,8 @@ static void draw_alphas(dice *d, double *p)
 /* 1/1000 .. 1000; half of them near 1. */
 static double draw_eta(dice *d)
 {
-	static const double ends[] = {1.0, 1 + 0x1p-23, 1 - 0x1p-24, 1 + 1e-7, 1 - 1e-7, 1000.0, 1e-3, 1.5, 1 / 1.5, 1.33};
+	static const double ends[] = {1.0,    1 + 0x1p-23, 1 - 0x1p-24, 1 + 1e-7, 1 - 1e-7,
+				      1000.0, 1e-3,        1.5,         1 / 1.5,  1.33};
 	const uint32_t how = bits(d) % 8;
 	const double near = 1.0 + sign(d) * decades(d, -7, -0.3), any = decades(d, -3, 3);
 	return how < 4 ? near : how < 6 ? any : ends[bits(d) % (sizeof ends / sizeof *ends)];
@@ -74,8 +75,8 @@ static void draw_film(dice *d, double *p, double least)
 static void draw_surface(dice *d, double *p)
 {
 	static const double shapes[][3] = {
-		{LOBE_NDF_GGX, 0, 1},      {LOBE_NDF_BECKMANN, 0, 1}, {LOBE_NDF_GGX, 0, 1},       {LOBE_NDF_BECKMANN, 0, 1},
-		{LOBE_NDF_GGX, 0, 1},      {LOBE_NDF_PHONG, 30, 1},   {LOBE_NDF_STUDENT_T, 3, 1}, {LOBE_NDF_GTR, 1.5, 0.3},
+		{LOBE_NDF_GGX, 0, 1}, {LOBE_NDF_BECKMANN, 0, 1}, {LOBE_NDF_GGX, 0, 1},       {LOBE_NDF_BECKMANN, 0, 1},
+		{LOBE_NDF_GGX, 0, 1}, {LOBE_NDF_PHONG, 30, 1},   {LOBE_NDF_STUDENT_T, 3, 1}, {LOBE_NDF_GTR, 1.5, 0.3},
 	};
 	const uint32_t shape = bits(d) % 8, how = bits(d) % 8;
 	const double far = 1.0 - decades(d, -4, 0), s = sign(d);

@@ -135,7 +135,8 @@ stability_form_result stability_form_at(int form, uint64_t n)
 	switch (form) {
 	case FORM_KARIS:
 	case FORM_SINE: {
-		const lobe_ggx_schlick p = lobe_ggx_schlick_make(alpha, alpha, lobe_rgb_make(1, 1, 1), lobe_rgb_make(1, 1, 1));
+		const lobe_ggx_schlick p =
+			lobe_ggx_schlick_make(alpha, alpha, lobe_rgb_make(1, 1, 1), lobe_rgb_make(1, 1, 1));
 		const lobe_sample s = lobe_ggx_schlick_sample(p, up, u);
 		const lobe_vec3 i = s.event ? s.wi : up, sum = lobe_vec3_add(up, i), h = half_vector(up, i);
 		r.x = (double)alpha;
@@ -211,7 +212,8 @@ stability_form_result stability_form_at(int form, uint64_t n)
 
 static double defective(const stability_case *c, stability_verb verb, int by_sine, int by_tangent)
 {
-	const lobe_vec3 o = lobe_vec3_make(c->wo[0], c->wo[1], c->wo[2]), i = lobe_vec3_make(c->wi[0], c->wi[1], c->wi[2]);
+	const lobe_vec3 o = lobe_vec3_make(c->wo[0], c->wo[1], c->wo[2]),
+			i = lobe_vec3_make(c->wi[0], c->wi[1], c->wi[2]);
 	const lobe_ggx_conductor p = stability_bsdf(c).as.ggx_conductor;
 	const float ax = p.stretch.alpha_x, ay = p.stretch.alpha_y;
 	const lobe_vec3 sum = lobe_vec3_add(o, i);
@@ -220,7 +222,8 @@ static double defective(const stability_case *c, stability_verb verb, int by_sin
 		return 0.0;
 	const float quarter_d = by_sine ? 0.25f * sine_d(half_vector(o, i), ax, ay)
 					: lobe_reflection_quarter_d(LOBE_NDF_GGX, p.stretch, sum, h2);
-	const float t_o = lobe_reflection_t(LOBE_NDF_GGX, p.stretch, o), t_i = lobe_reflection_t(LOBE_NDF_GGX, p.stretch, i);
+	const float t_o = lobe_reflection_t(LOBE_NDF_GGX, p.stretch, o),
+		    t_i = lobe_reflection_t(LOBE_NDF_GGX, p.stretch, i);
 	const float lambda_o = by_tangent ? tangent_lambda(o, ax, ay) : 0.5f * (t_o / o.z - 1.0f);
 	const float lambda_i = by_tangent ? tangent_lambda(i, ax, ay) : 0.5f * (t_i / i.z - 1.0f);
 	if (verb == STABILITY_PDF)

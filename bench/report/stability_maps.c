@@ -64,8 +64,9 @@ static void run_cell(const map *m, size_t column, size_t row, size_t cases, repo
 			c.wo[2] = (float)(m->below ? -cosine : cosine);
 			for (int k = 0; k < 3; k++)
 				c.u[k] = (float)(test_bits(STREAM, at++) >> 8) * 0x1p-24f;
-			const lobe_sample s = lobe_bsdf_sample(stability_bsdf(&c), lobe_vec3_make(c.wo[0], c.wo[1], c.wo[2]),
-							       lobe_vec3_make(c.u[0], c.u[1], c.u[2]));
+			const lobe_sample s =
+				lobe_bsdf_sample(stability_bsdf(&c), lobe_vec3_make(c.wo[0], c.wo[1], c.wo[2]),
+						 lobe_vec3_make(c.u[0], c.u[1], c.u[2]));
 			if (s.event == 0u)
 				continue;
 			c.wi[0] = s.wi.x;
@@ -83,8 +84,8 @@ static void run_cell(const map *m, size_t column, size_t row, size_t cases, repo
 		qsort(ulp, n, sizeof *ulp, by_size);
 		qsort(ratio, n, sizeof *ratio, by_size);
 		qsort(floor, n, sizeof *floor, by_size);
-		report_row(rows, "%s,%s,%.6g,%.6g,%zu,%.4g,%.4g,%.4g,%.4g,%.4g", m->name, stability_verb_names[v], alpha, z, n,
-			   ulp[n - 1], ulp[n / 2], ratio[n - 1], floor[n / 2], floor[n - 1]);
+		report_row(rows, "%s,%s,%.6g,%.6g,%zu,%.4g,%.4g,%.4g,%.4g,%.4g", m->name, stability_verb_names[v],
+			   alpha, z, n, ulp[n - 1], ulp[n / 2], ratio[n - 1], floor[n / 2], floor[n - 1]);
 	}
 	free(ulp);
 }
@@ -140,12 +141,13 @@ static int form_run(int quick, size_t unit, report_rows *rows)
 	}
 	for (int i = 0; i < BINS; i++)
 		if (bins[i].cases >= 30)
-			report_row(rows, "%zu,%.6g,%lu,%.4g,%.4g,%.4g,%.4g,%.4g,%lu", unit, pow(10.0, (i + 0.5) / 4.0 - 8.0),
-				   bins[i].cases, bins[i].floor / (double)bins[i].cases, bins[i].ours, bins[i].textbook,
+			report_row(rows, "%zu,%.6g,%lu,%.4g,%.4g,%.4g,%.4g,%.4g,%lu", unit,
+				   pow(10.0, (i + 0.5) / 4.0 - 8.0), bins[i].cases,
+				   bins[i].floor / (double)bins[i].cases, bins[i].ours, bins[i].textbook,
 				   bins[i].ours_ratio, bins[i].textbook_ratio, bins[i].failed);
 	return 0;
 }
 
 const report_study stability_forming = {
-	"stability_forms", "form,x,cases,floor,ours,textbook,ours_over_floor,textbook_over_floor,textbook_failed", 0, form_units,
-	form_run};
+	"stability_forms", "form,x,cases,floor,ours,textbook,ours_over_floor,textbook_over_floor,textbook_failed", 0,
+	form_units, form_run};

@@ -78,7 +78,8 @@ double stability_library(const stability_case *c, stability_verb verb)
 size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS])
 {
 	const int ch = c->channel;
-	const int rough[] = {0, 1, 2 + ch, 5 + ch}, glass[] = {0, 1, 2}, colour[] = {ch}, metal[] = {ch, 3 + ch}, index[] = {0};
+	const int rough[] = {0, 1, 2 + ch, 5 + ch}, glass[] = {0, 1, 2}, colour[] = {ch}, metal[] = {ch, 3 + ch},
+		  index[] = {0};
 	const int film_metal[] = {0, 1, 2, 3, 4 + ch, 7 + ch}, film_glass[] = {0, 1, 2, 3, 4};
 	const int any_metal[] = {0, 1, 11, 12, 13, 14, 2 + ch, 5 + ch}, any_glass[] = {0, 1, 11, 12, 13, 14, 2};
 	const int diffuse[] = {0, 1, 11, 12, 13, 14, 2 + ch};
@@ -196,7 +197,8 @@ static int ask(const stability_case *c, stability_verb verb, stability_question 
 	q->verb = verb;
 	q->channel = c->channel;
 	q->delta = refraction_is_delta(&b);
-	if ((verb == STABILITY_EVAL && is_delta_only(c->kind)) || (verb == STABILITY_DIRECTION && !has_direction(c->kind)))
+	if ((verb == STABILITY_EVAL && is_delta_only(c->kind)) ||
+	    (verb == STABILITY_DIRECTION && !has_direction(c->kind)))
 		return 0;
 	if (verb >= STABILITY_WEIGHT || is_delta_only(c->kind)) {
 		const lobe_sample s = lobe_bsdf_sample(b, vec3(c->wo), vec3(c->u));
@@ -332,7 +334,8 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 	r.error = (double)fabsl((long double)r.value - exact);
 	/* A component of a direction is a part of 1, none is small. */
 	r.size = verb == STABILITY_DIRECTION ? 1.0 : (double)exact;
-	r.ulp = verb == STABILITY_DIRECTION ? 0x1p-24 : 2.0 * (double)(exact == 0.0L ? 0x1p-150L : stability_half_ulp(exact));
+	r.ulp = verb == STABILITY_DIRECTION ? 0x1p-24
+					    : 2.0 * (double)(exact == 0.0L ? 0x1p-150L : stability_half_ulp(exact));
 	r.floor = fmax((double)sqrtl(directions + parameters), 0.5 * r.ulp);
 	r.floor_directions = (double)sqrtl(directions);
 	r.floor_of_one = r.error > r.floor ? fmax(r.floor, of_one(c, q, x)) : r.floor;
@@ -372,8 +375,8 @@ stability_class stability_explain(const stability_result *r)
 {
 	if (!r->defined || r->error <= STABILITY_LIMIT * r->floor)
 		return STABILITY_PLAIN;
-	return is_tiny(r)           ? STABILITY_TINY
-	       : is_undetermined(r) ? STABILITY_UNDETERMINED
+	return is_tiny(r)                                      ? STABILITY_TINY
+	       : is_undetermined(r)                            ? STABILITY_UNDETERMINED
 	       : r->error <= STABILITY_LIMIT * r->floor_of_one ? STABILITY_OF_ONE
 							       : STABILITY_PLAIN;
 }

@@ -71,7 +71,8 @@ static int sweep_run(int quick, size_t unit, report_rows *rows)
 		for (stability_verb v = STABILITY_EVAL; v < STABILITY_VERBS; v++) {
 			const stability_result r = stability_measure(&c, v);
 			if (r.defined)
-				stability_tally_add(&tally[2 * v + (stability_verb)stability_is_textbook(&c)], &c, v, &r, n);
+				stability_tally_add(&tally[2 * v + (stability_verb)stability_is_textbook(&c)], &c, v,
+						    &r, n);
 		}
 	}
 	for (int v = 0; v < STABILITY_VERBS; v++)
@@ -92,10 +93,11 @@ static int sweep_run(int quick, size_t unit, report_rows *rows)
 	return 0;
 }
 
-const report_study stability_sweep = {"stability_sweep",
-				      "lobe,verb,reference,cases,compared,non_finite,negative,above,unexplained,undetermined,"
-				      "tiny,of_one,worst_ulp,worst,worst_of_one,own_error,bins,bins_of_one",
-				      0, sweep_units, sweep_run};
+const report_study stability_sweep = {
+	"stability_sweep",
+	"lobe,verb,reference,cases,compared,non_finite,negative,above,unexplained,undetermined,"
+	"tiny,of_one,worst_ulp,worst,worst_of_one,own_error,bins,bins_of_one",
+	0, sweep_units, sweep_run};
 
 /* --- counts --------------------------------------------------------------------------------------------------------- */
 
@@ -173,8 +175,9 @@ static int worst_run(int quick, size_t unit, report_rows *rows)
 	const stability_result r = stability_measure(&worst, verb);
 	stability_print(&worst, verb, text, sizeof text);
 	report_row(rows, "%s,%s,%s,%s,%.6g,%.6g,%.9g,%.12g,%.4g,%.4g,%.4g,%s,%s", stability_lobe_names[lobe],
-		   stability_verb_names[verb], names[which], stability_is_textbook(&worst) ? "textbook" : "double build", drawn,
-		   found, r.value, r.exact, r.error / r.ulp, r.floor / r.size, r.floor_directions / r.size,
+		   stability_verb_names[verb], names[which],
+		   stability_is_textbook(&worst) ? "textbook" : "double build", drawn, found, r.value, r.exact,
+		   r.error / r.ulp, r.floor / r.size, r.floor_directions / r.size,
 		   stability_class_names[stability_explain(&r)], text);
 	return 0;
 }

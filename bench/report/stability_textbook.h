@@ -54,7 +54,8 @@ static REAL REAL_(fresnel_conductor)(REAL c, REAL n, REAL k)
 	const REAL root_re = re >= 0 ? large : small, root_im = re >= 0 ? small : large;
 	if (n == 1 && k == 0)
 		return 0;
-	return (REAL_(ratio2)(c, 0, root_re, root_im) + REAL_(ratio2)((n * n - k * k) * c, im * c, root_re, root_im)) / 2;
+	return (REAL_(ratio2)(c, 0, root_re, root_im) + REAL_(ratio2)((n * n - k * k) * c, im * c, root_re, root_im)) /
+	       2;
 }
 
 /* Schlick 1994 between f0 and f90. */
@@ -119,7 +120,8 @@ static REAL REAL_(g2_over_cos)(REAL_(seen) o, REAL_(seen) i, int separable)
 /* Reflection and refraction by a facet: reflectance f or transmittance of it given, value and density and weight of what it
  * makes of the light. */
 typedef struct {
-	REAL eval, pdf, weight; /* eval: of reflectance 1; pdf: the event being chosen with probability 1; weight: their ratio */
+	REAL eval, pdf,
+		weight; /* eval: of reflectance 1; pdf: the event being chosen with probability 1; weight: their ratio */
 	REAL cosine;
 	int there;
 } REAL_(facet);
@@ -200,8 +202,8 @@ static REAL REAL_(at_most_1)(REAL c) { return c > 1 ? 1 : c; }
 static REAL REAL_(opaque)(stability_question q, const REAL *o, const REAL *i, const REAL *p)
 {
 	const int linear = q.kind == LOBE_KIND_MICROFACET_CONDUCTOR;
-	const REAL_(facet) f = REAL_(reflection)(REAL_(surface_of)(q.kind, p), o, i,
-						 linear && p[16] == LOBE_JOINT_SEPARABLE);
+	const REAL_(facet) f =
+		REAL_(reflection)(REAL_(surface_of)(q.kind, p), o, i, linear && p[16] == LOBE_JOINT_SEPARABLE);
 	const REAL a = p[2 + q.channel], b = p[5 + q.channel];
 	if (!f.there)
 		return 0;
@@ -210,7 +212,8 @@ static REAL REAL_(opaque)(stability_question q, const REAL *o, const REAL *i, co
 	if (q.white)
 		return q.verb == STABILITY_EVAL ? f.eval : f.weight;
 	return (q.verb == STABILITY_EVAL ? f.eval : f.weight) *
-	       (q.kind == LOBE_KIND_GGX_SCHLICK ? REAL_(schlick)(REAL_(at_most_1)(f.cosine), a, b) : REAL_(fresnel_conductor)(f.cosine, a, b));
+	       (q.kind == LOBE_KIND_GGX_SCHLICK ? REAL_(schlick)(REAL_(at_most_1)(f.cosine), a, b)
+						: REAL_(fresnel_conductor)(f.cosine, a, b));
 }
 
 /* From below all is seen through the point, and the indices change places. */
@@ -230,13 +233,17 @@ static REAL REAL_(glass)(stability_question q, const REAL *wo, const REAL *wi, c
 		return q.verb == STABILITY_WEIGHT ? scale : 0;
 	if (i[2] > 0) {
 		const REAL_(facet) f = REAL_(reflection)(s, o, i, linear && p[16] == LOBE_JOINT_SEPARABLE);
-		const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(fresnel)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
+		const REAL share = !f.there  ? 0
+				   : q.white ? 1
+					     : REAL_(fresnel)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
 		return q.verb == STABILITY_WEIGHT ? f.weight : share * (q.verb == STABILITY_PDF ? f.pdf : f.eval);
 	}
 	if (q.delta)
 		return 0;
 	const REAL_(facet) f = REAL_(refraction)(s, o, i, e, 1);
-	const REAL share = !f.there ? 0 : q.white ? 1 : REAL_(transmittance)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
+	const REAL share = !f.there  ? 0
+			   : q.white ? 1
+				     : REAL_(transmittance)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
 	return q.verb == STABILITY_WEIGHT ? scale * f.weight
 	       : q.verb == STABILITY_PDF  ? share * f.pdf
 					  : share * scale * f.eval;
@@ -344,7 +351,8 @@ static REAL REAL_(direction)(stability_question q, const REAL *wo, const REAL *u
 {
 	const REAL side = wo[2] > 0 ? 1 : -1, up[3] = {0, 0, 1};
 	const REAL_(surface) s = REAL_(surface_of)(q.kind, p);
-	const REAL o[3] = {wo[0], wo[1], side * wo[2]}, dx = q.white ? 0 : (REAL)q.nudge, dy = q.white ? (REAL)q.nudge : 0;
+	const REAL o[3] = {wo[0], wo[1], side * wo[2]}, dx = q.white ? 0 : (REAL)q.nudge,
+		   dy = q.white ? (REAL)q.nudge : 0;
 	REAL i[3], m[3];
 	switch (q.kind) {
 	case LOBE_KIND_LAMBERT:

@@ -151,8 +151,10 @@ static void write_lines(report_page *page, const rank_map *m, const report_table
 	fclose(f);
 	fclose(titles);
 	report_gnuplot(page, "strategies_curves.gp", NULL);
-	report_readme(page, "Relative error against time of every way to sample a rough metal, the lights, and both together:\n\n"
-			    "![](doc/strategies_curves.png)\n\n");
+	report_readme(
+		page,
+		"Relative error against time of every way to sample a rough metal, the lights, and both together:\n\n"
+		"![](doc/strategies_curves.png)\n\n");
 	report_figure(page, "strategies_curves.png",
 		      "Relative error against time, one thread, scalar functions. Lines: Owen-scrambled Sobol points, "
 		      "measured "

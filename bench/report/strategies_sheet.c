@@ -135,7 +135,9 @@ static void write_sheet(report_page *page, const report_table *reference, const 
 	snprintf(file, sizeof file, "strategies_errors%d.png", number);
 	report_figure(page, file, "The same: relative error of each pixel.");
 	if (number == 1)
-		report_readme(page, "Balls of gold under *%s*, each technique for the same time:\n\n![](doc/strategies_pictures1.png)\n\n",
+		report_readme(page,
+			      "Balls of gold under *%s*, each technique for the same "
+			      "time:\n\n![](doc/strategies_pictures1.png)\n\n",
 			      light);
 	report_finding(
 		page,
