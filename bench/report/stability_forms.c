@@ -33,6 +33,12 @@ static float karis_d(float n_h, float alpha)
 	return a2 / (pi * d * d);
 }
 
+/* D of the library's GGX at the half vector of that sum. */
+static float library_d(lobe_stretch stretch, lobe_vec3 sum)
+{
+	return 2.0f * lobe_reflection_density(LOBE_NDF_GGX, stretch, sum, lobe_dot(sum, sum), 1.0f);
+}
+
 /* Heitz 2014, eq. 85; widths as one sees them along h. */
 static float sine_d(lobe_vec3 h, float ax, float ay)
 {
@@ -140,7 +146,7 @@ stability_form_result stability_form_at(int form, uint64_t n)
 		const lobe_sample s = lobe_ggx_schlick_sample(p, up, u);
 		const lobe_vec3 i = s.event ? s.wi : up, sum = lobe_vec3_add(up, i), h = half_vector(up, i);
 		r.x = (double)alpha;
-		r.ours = 4.0 * (double)lobe_reflection_quarter_d(LOBE_NDF_GGX, p.stretch, sum, lobe_dot(sum, sum));
+		r.ours = (double)library_d(p.stretch, sum);
 		r.textbook = (double)(form == FORM_KARIS ? karis_d(h.z, alpha) : sine_d(h, alpha, alpha));
 		put(x, up);
 		put(x + 3, i);
@@ -217,18 +223,16 @@ static double defective(const stability_case *c, stability_verb verb, int by_sin
 	const lobe_ggx_conductor p = stability_bsdf(c).as.ggx_conductor;
 	const float ax = p.stretch.alpha_x, ay = p.stretch.alpha_y;
 	const lobe_vec3 sum = lobe_vec3_add(o, i);
-	const float h2 = lobe_dot(sum, sum);
 	if (!(o.z > 0.0f && i.z > 0.0f) || verb == STABILITY_WEIGHT)
 		return 0.0;
-	const float quarter_d = by_sine ? 0.25f * sine_d(half_vector(o, i), ax, ay)
-					: lobe_reflection_quarter_d(LOBE_NDF_GGX, p.stretch, sum, h2);
+	const float quarter_d = by_sine ? 0.25f * sine_d(half_vector(o, i), ax, ay) : 0.25f * library_d(p.stretch, sum);
 	const float t_o = lobe_reflection_t(LOBE_NDF_GGX, p.stretch, o),
 		    t_i = lobe_reflection_t(LOBE_NDF_GGX, p.stretch, i);
 	const float lambda_o = by_tangent ? tangent_lambda(o, ax, ay) : 0.5f * (t_o / o.z - 1.0f);
 	const float lambda_i = by_tangent ? tangent_lambda(i, ax, ay) : 0.5f * (t_i / i.z - 1.0f);
 	if (verb == STABILITY_PDF)
 		return (double)(quarter_d / (o.z * (1.0f + lambda_o)));
-	const lobe_rgb f = lobe_rough_conductor_fresnel(p, h2);
+	const lobe_rgb f = lobe_rough_conductor_fresnel(p, lobe_dot(sum, sum));
 	const float value = quarter_d / (o.z * (1.0f + lambda_o + lambda_i));
 	return (double)(value * (c->channel == 0 ? f.r : c->channel == 1 ? f.g : f.b));
 }

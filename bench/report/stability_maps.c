@@ -98,8 +98,11 @@ static int map_run(int quick, size_t unit, report_rows *rows)
 }
 
 const report_study stability_maps = {"stability_maps",
-				     "map,verb,alpha,cos,cases,ulp,ulp_median,over_floor,floor_median,floor_worst", 0,
-				     map_units, map_run};
+				     "map,verb,alpha,cos,cases,ulp,ulp_median,over_floor,floor_median,floor_worst",
+				     0,
+				     map_units,
+				     map_run,
+				     NULL};
 
 /* --- textbook forms --------------------------------------------------------------------------------------------------- */
 
@@ -149,5 +152,9 @@ static int form_run(int quick, size_t unit, report_rows *rows)
 }
 
 const report_study stability_forming = {
-	"stability_forms", "form,x,cases,floor,ours,textbook,ours_over_floor,textbook_over_floor,textbook_failed", 0,
-	form_units, form_run};
+	"stability_forms",
+	"form,x,cases,floor,ours,textbook,ours_over_floor,textbook_over_floor,textbook_failed",
+	0,
+	form_units,
+	form_run,
+	NULL};

@@ -97,7 +97,10 @@ const report_study stability_sweep = {
 	"stability_sweep",
 	"lobe,verb,reference,cases,compared,non_finite,negative,above,unexplained,undetermined,"
 	"tiny,of_one,worst_ulp,worst,worst_of_one,own_error,bins,bins_of_one",
-	0, sweep_units, sweep_run};
+	0,
+	sweep_units,
+	sweep_run,
+	NULL};
 
 /* --- counts --------------------------------------------------------------------------------------------------------- */
 
@@ -119,8 +122,8 @@ static int count_run(int quick, size_t unit, report_rows *rows)
 	return 0;
 }
 
-const report_study stability_counting = {"stability_counts", "lobe,elements,samples,non_finite,negative,pdf_differs", 0,
-					 count_units, count_run};
+const report_study stability_counting = {
+	"stability_counts", "lobe,elements,samples,non_finite,negative,pdf_differs", 0, count_units, count_run, NULL};
 
 /* --- worst cases ------------------------------------------------------------------------------------------------------ */
 
@@ -184,5 +187,8 @@ static int worst_run(int quick, size_t unit, report_rows *rows)
 
 const report_study stability_worst = {
 	"stability_worst",
-	"lobe,verb,yardstick,reference,drawn,found,value,exact,ulp,floor,floor_directions,class,inputs", 0, worst_units,
-	worst_run};
+	"lobe,verb,yardstick,reference,drawn,found,value,exact,ulp,floor,floor_directions,class,inputs",
+	0,
+	worst_units,
+	worst_run,
+	NULL};
