@@ -7,6 +7,7 @@
 
 #include "approximations.h"
 #include "approximations_lobes.h"
+#include "approximations_summary.h"
 #include "csv.h"
 
 /* --- the study of errors: three parts, one after another --------------------------------------------------------------- */
@@ -41,181 +42,28 @@ static const report_study error_study = {
 	.run = error_run,
 };
 
-/* --- what the rows say of one way ---------------------------------------------------------------------------------------- */
-
-/* Over all cases, or one. rms: root of the mean of the cases' squares. Times [ns] of a call: NaN where there is none. */
-typedef struct {
-	const char *group, *name;
-	double max, rms, albedo, reference, albedo_reference, ns[3];
-	const char *max_case, *albedo_case;
-	int cases, front;
-} summary;
-
-static const char *const loops[3] = {"vector", "scalar", "opencl"};
-
-static double time_of(const report_table *times, const char *group, const char *name, const char *loop)
-{
-	for (size_t i = 0; i < report_table_rows(times); i++)
-		if (strcmp(report_cell(times, i, "group"), group) == 0 &&
-		    strcmp(report_cell(times, i, "name"), name) == 0 &&
-		    strcmp(report_cell(times, i, "loop"), loop) == 0)
-			return report_number(times, i, "ns");
-	return (double)NAN;
-}
-
-static summary summarise(const report_table *errors, const report_table *times, const char *group, const char *name,
-			 const char *of)
-{
-	summary s = {.group = group, .name = name, .max_case = "", .albedo_case = ""};
-	double sum2 = 0.0;
-	s.albedo = s.albedo_reference = (double)NAN;
-	for (size_t i = 0; i < report_table_rows(errors); i++) {
-		if (strcmp(report_cell(errors, i, "group"), group) != 0 ||
-		    strcmp(report_cell(errors, i, "name"), name) != 0 ||
-		    (of && strcmp(report_cell(errors, i, "case"), of) != 0))
-			continue;
-		const double max = report_number(errors, i, "max"), rms = report_number(errors, i, "rms");
-		s.cases++;
-		sum2 += rms * rms;
-		s.reference = fmax(s.reference, report_number(errors, i, "reference"));
-		if (max >= s.max) {
-			s.max = max;
-			s.max_case = report_cell(errors, i, "case");
-		}
-		if (!report_cell(errors, i, "albedo")[0])
-			continue;
-		const double albedo = report_number(errors, i, "albedo");
-		s.albedo_reference = fmax(s.albedo_reference, report_number(errors, i, "albedo_reference"));
-		if (!(albedo <= s.albedo)) {
-			s.albedo = albedo;
-			s.albedo_case = report_cell(errors, i, "case");
-		}
-	}
-	s.rms = s.cases ? sqrt(sum2 / s.cases) : (double)NAN;
-	for (int k = 0; k < 3; k++)
-		s.ns[k] = time_of(times, group, name, loops[k]);
-	return s;
-}
-
-/* All ways of a group that have rows. */
-enum { WAYS_MAX = 48 };
-
-static int gather(const report_table *errors, const report_table *times, const char *group, const char *of,
-		  summary all[WAYS_MAX])
-{
-	int n = 0;
-	for (size_t i = 0; i < report_table_rows(errors); i++) {
-		const char *name = report_cell(errors, i, "name");
-		int known = 0;
-		if (strcmp(report_cell(errors, i, "group"), group) != 0)
-			continue;
-		for (int k = 0; k < n; k++)
-			known |= strcmp(all[k].name, name) == 0;
-		if (known || n == WAYS_MAX)
-			continue;
-		all[n] = summarise(errors, times, group, name, of);
-		n += all[n].cases > 0;
-	}
-	return n;
-}
-
-static const summary *find(const summary *all, int n, const char *name)
-{
-	for (int i = 0; i < n; i++)
-		if (strcmp(all[i].name, name) == 0)
-			return &all[i];
-	fprintf(stderr, "report: no rows of %s\n", name);
-	exit(1);
-}
-
-/* Time that is compared: of the loop as a renderer would run it, vectorised where it can be. */
-static double best_ns(const summary *s) { return fmin(s->ns[0], s->ns[1]); }
-
-static void mark_front(summary *all, int n)
-{
-	for (int i = 0; i < n; i++) {
-		all[i].front = 1;
-		for (int k = 0; k < n; k++)
-			if (best_ns(&all[k]) <= best_ns(&all[i]) && all[k].rms <= all[i].rms &&
-			    (best_ns(&all[k]) < best_ns(&all[i]) || all[k].rms < all[i].rms))
-				all[i].front = 0;
-	}
-}
-
-static void cell(report_page *page, double x, const char *format)
-{
-	if (isnan(x))
-		report_text(page, " - |");
-	else
-		report_text(page, format, x);
-}
-
-static void table(report_page *page, const summary *all, int n, const char *unit)
-{
-	report_text(page,
-		    "| | max error%s | at worst in | RMS | largest error of albedo | of | reference good to | ns, "
-		    "vectorised "
-		    "| ns, one by one | ns, OpenCL |\n|---|---|---|---|---|---|---|---|---|---|\n",
-		    unit);
-	for (int i = 0; i < n; i++) {
-		const summary *s = &all[i];
-		report_text(page, "| %s%s%s |", s->front ? "**" : "", s->name, s->front ? "**" : "");
-		cell(page, s->max, " %.2g |");
-		report_text(page, " %s |", s->max_case);
-		cell(page, s->rms, " %.2g |");
-		cell(page, s->albedo, " %.2g |");
-		report_text(page, " %s |", s->albedo_case);
-		report_text(page, isnan(s->albedo_reference) ? " %.0e |" : " %.0e; albedo %.0e |", s->reference,
-			    s->albedo_reference);
-		for (int k = 0; k < 3; k++)
-			cell(page, s->ns[k], " %.2f |");
-		report_text(page, "\n");
-	}
-	report_text(page, "\nBold: on the front, nothing is both faster and nearer.\n\n");
-}
-
-/* name, time, error, whether on the front: what approximations.gp draws. */
-static void write_points(const char *group, const summary *all, int n)
-{
-	char file[96];
-	snprintf(file, sizeof file, "approximations_pareto_%s.csv", group);
-	FILE *to = report_open(file);
-	/* In order of time, so that a line through the front's points is the front. */
-	int order[WAYS_MAX];
-	for (int i = 0; i < n; i++) {
-		int k = i;
-		for (; k > 0 && best_ns(&all[order[k - 1]]) > best_ns(&all[i]); k--)
-			order[k] = order[k - 1];
-		order[k] = i;
-	}
-	fprintf(to, "name,ns,rms,front\n");
-	for (int i = 0; i < n; i++) {
-		const summary *s = &all[order[i]];
-		fprintf(to, "%s,%.4g,%.4g,%d\n", s->name, best_ns(s), fmax(s->rms, 1e-9), s->front);
-	}
-	if (fclose(to) != 0)
-		exit(1);
-}
-
 /* --- parts of the section -------------------------------------------------------------------------------------------------- */
 
 static void dielectrics(report_page *page, const report_table *errors, const report_table *times)
 {
 	static const char *const cases[] = {"eta 1.1", "eta 1.33", "eta 1.5", "eta 2", "eta 2.42", "eta 4"};
-	summary all[WAYS_MAX];
+	approximations_summary all[APPROXIMATIONS_WAYS_MAX];
 	report_text(
 		page,
 		"By index, Schlick's curve from the exact reflectance at normal incidence:\n\n| index | max error | "
 		"RMS | albedo | ... with a fitted exponent, max | RMS | albedo |\n|---|---|---|---|---|---|---|\n");
 	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-		const summary s = summarise(errors, times, "dielectric", "Schlick", cases[i]);
-		const summary f = summarise(errors, times, "dielectric", "Schlick; fitted exponent", cases[i]);
+		const approximations_summary s =
+			approximations_summarise(errors, times, "dielectric", "Schlick", cases[i]);
+		const approximations_summary f =
+			approximations_summarise(errors, times, "dielectric", "Schlick; fitted exponent", cases[i]);
 		report_text(page, "| %s | %.3f | %.4f | %.4f | %.3f | %.4f | %.4f |\n", cases[i], s.max, s.rms,
 			    s.albedo, f.max, f.rms, f.albedo);
 	}
 	report_text(page, "\n");
-	const int n = gather(errors, times, "dielectric", "eta 1.5", all);
-	const summary *schlick = find(all, n, "Schlick"), *exact = find(all, n, "exact");
+	const int n = approximations_gather(errors, times, "dielectric", "eta 1.5", all);
+	const approximations_summary *schlick = approximations_find(all, n, "Schlick"),
+				     *exact = approximations_find(all, n, "exact");
 	report_finding(
 		page,
 		"Schlick's reflectance at index 1.5 is off by up to %.3f, the albedo by up to %.4f, and saves %.2f of "
@@ -224,10 +72,11 @@ static void dielectrics(report_page *page, const report_table *errors, const rep
 		exact->ns[1] - schlick->ns[1], exact->ns[1]);
 }
 
-static void conductors(report_page *page, const summary *all, int n)
+static void conductors(report_page *page, const approximations_summary *all, int n)
 {
-	const summary *schlick = find(all, n, "Schlick"), *f82 = find(all, n, "F82-tint"),
-		      *exact = find(all, n, "exact");
+	const approximations_summary *schlick = approximations_find(all, n, "Schlick"),
+				     *f82 = approximations_find(all, n, "F82-tint"),
+				     *exact = approximations_find(all, n, "exact");
 	report_finding(
 		page,
 		"For metals F82-tint is off by at most %.3f (%s), albedo %.4f, where Schlick's curve is off by %.3f "
@@ -236,10 +85,11 @@ static void conductors(report_page *page, const summary *all, int n)
 		schlick->ns[0], exact->ns[0]);
 }
 
-static void lambdas(report_page *page, const summary *all, int n)
+static void lambdas(report_page *page, const approximations_summary *all, int n)
 {
-	const summary *rational = find(all, n, "Walter's rational"), *own = find(all, n, "one polynomial"),
-		      *erf = find(all, n, "erf and exp");
+	const approximations_summary *rational = approximations_find(all, n, "Walter's rational"),
+				     *own = approximations_find(all, n, "one polynomial"),
+				     *erf = approximations_find(all, n, "erf and exp");
 	report_finding(
 		page,
 		"Walter's rational Lambda puts G1 off by %.4f and the albedo of a Beckmann mirror by %.4f, and saves "
@@ -250,10 +100,11 @@ static void lambdas(report_page *page, const summary *all, int n)
 		own->ns[0] - rational->ns[0]);
 }
 
-static void maskings(report_page *page, const summary *all, int n)
+static void maskings(report_page *page, const approximations_summary *all, int n)
 {
-	const summary *karis = find(all, n, "Schlick-Smith k = alpha/2"), *separable = find(all, n, "Smith; separable"),
-		      *height = find(all, n, "Smith; height-correlated");
+	const approximations_summary *karis = approximations_find(all, n, "Schlick-Smith k = alpha/2"),
+				     *separable = approximations_find(all, n, "Smith; separable"),
+				     *height = approximations_find(all, n, "Smith; height-correlated");
 	report_finding(page,
 		       "On a GGX surface separable masking is up to %.3f of albedo off the height-correlated form at "
 		       "%.2f against %.2f ns; Schlick-Smith with k = alpha/2 is %.3f off at %.2f ns",
@@ -325,7 +176,7 @@ static void fields(report_page *page, const report_table *rows)
 		       best_name[0], best[0], height, separable, best_name[1], best[1], noise);
 }
 
-static void reals(report_page *page, const summary *all, int n)
+static void reals(report_page *page, const approximations_summary *all, int n)
 {
 	double worst = 0.0, product = 1.0, product_cl = 1.0;
 	int faster = 0, compared = 0, cl = 0;
@@ -402,7 +253,8 @@ static void precision(report_page *page, const report_table *rows, const report_
 					char name[96];
 					snprintf(name, sizeof name, "%s/%s/%s", approximations_lobe_names[l],
 						 approximations_verbs[v], d ? "double" : "single");
-					ns[loop][d] = time_of(times, "precision", name, loops[loop]);
+					ns[loop][d] = approximations_time_of(times, "precision", name,
+									     approximations_loops_measured[loop]);
 					report_text(page, " %.1f |", ns[loop][d]);
 				}
 			product *= ns[0][1] / ns[0][0];
@@ -423,7 +275,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 {
 	static const struct {
 		const char *group, *title, *text, *unit;
-		void (*then)(report_page *, const summary *, int);
+		void (*then)(report_page *, const approximations_summary *, int);
 	} kinds[] = {
 		{"dielectric", "Fresnel, dielectric", "Over equal steps of the cosine from 0 to 1; index 1.1 to 4.",
 		 " (reflectance)", NULL},
@@ -463,8 +315,8 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		"the error beside it, that error is an upper bound, and nothing is concluded from it.\n\n",
 		2048);
 	for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-		summary all[WAYS_MAX];
-		int n = gather(errors, times, kinds[k].group, NULL, all);
+		approximations_summary all[APPROXIMATIONS_WAYS_MAX];
+		int n = approximations_gather(errors, times, kinds[k].group, NULL, all);
 		report_text(page, "### %s\n\n%s\n\n", kinds[k].title, kinds[k].text);
 		/* Beside a table stands what it was made from, which has no error of its own. */
 		if (strcmp(kinds[k].group, "density") == 0 || strcmp(kinds[k].group, "hidden") == 0 ||
@@ -472,13 +324,13 @@ static void write(report_page *page, const report_table *const *tables, int quic
 			for (int i = 0; i < 2; i++) {
 				const char *name = i ? "Beckmann" : "GGX";
 				report_text(page, "%s itself: %.2f ns vectorised, %.2f one by one.\n\n", name,
-					    time_of(times, kinds[k].group, name, "vector"),
-					    time_of(times, kinds[k].group, name, "scalar"));
+					    approximations_time_of(times, kinds[k].group, name, "vector"),
+					    approximations_time_of(times, kinds[k].group, name, "scalar"));
 			}
 		else if (strcmp(kinds[k].group, "real") != 0)
-			mark_front(all, n);
-		table(page, all, n, kinds[k].unit);
-		write_points(kinds[k].group, all, n);
+			approximations_mark_front(all, n);
+		approximations_table(page, all, n, kinds[k].unit);
+		approximations_write_points(kinds[k].group, all, n);
 		if (strcmp(kinds[k].group, "dielectric") == 0)
 			dielectrics(page, errors, times);
 		if (kinds[k].then)

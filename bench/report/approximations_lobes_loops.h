@@ -2,15 +2,9 @@
  * names end in PRECISION. */
 #include "../timing.h"
 #include "approximations_lobes.h"
+#include "approximations_side.h"
 #include "cases_make.h"
 #include "support.h"
-
-#ifdef __GNUC__
-#define ONE_BY_ONE __asm__ volatile("")
-#else
-#define ONE_BY_ONE
-#endif
-#define SIDE_BY_SIDE
 
 enum { LENGTH = 2048 };
 

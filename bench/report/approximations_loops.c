@@ -4,6 +4,7 @@
 #define LOBE_FN_APART LOBE_FN
 
 #include "approximations.h"
+#include "approximations_side.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,14 +18,6 @@ APPROXIMATIONS_HELPERS
 
 LOBE_FN lobe_rgb approximations_rgb(lobe_vec3 v) { return lobe_rgb_make(v.x, v.y, v.z); }
 LOBE_FN lobe_real approximations_density(lobe_facet_density d) { return d.inv * d.inv * d.factor; }
-
-/* What keeps a loop from being vectorised: something happens in each round that nobody may reorder. */
-#ifdef __GNUC__
-#define ONE_BY_ONE __asm__ volatile("")
-#else
-#define ONE_BY_ONE
-#endif
-#define SIDE_BY_SIDE
 
 #define ARRAYS                                                                                                         \
 	size_t n, const float *restrict a, const float *restrict b, const float *restrict c, const float *restrict d,  \

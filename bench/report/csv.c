@@ -35,8 +35,7 @@ void report_rows_print(report_rows *rows, const char *format, va_list arguments)
 	rows->length += (size_t)n;
 }
 
-static void append(report_rows *rows, const char *format, ...) REPORT_PRINTF(2, 3);
-static void append(report_rows *rows, const char *format, ...)
+void report_rows_add(report_rows *rows, const char *format, ...)
 {
 	va_list arguments;
 	va_start(arguments, format);
@@ -50,7 +49,7 @@ void report_row(report_rows *rows, const char *format, ...)
 	va_start(arguments, format);
 	report_rows_print(rows, format, arguments);
 	va_end(arguments);
-	append(rows, "\n");
+	report_rows_add(rows, "\n");
 }
 
 void report_rows_free(report_rows *rows)
@@ -67,7 +66,7 @@ int report_rows_read(report_rows *rows, const char *path)
 	if (!file)
 		return 0;
 	while ((n = fread(part, 1, sizeof part, file)) > 0)
-		append(rows, "%.*s", (int)n, part);
+		report_rows_add(rows, "%.*s", (int)n, part);
 	const int ok = !ferror(file);
 	fclose(file);
 	return ok;

@@ -16,6 +16,7 @@ struct report_rows {
 void *report_alloc(void *old, size_t size);
 
 void report_rows_print(report_rows *rows, const char *format, va_list arguments);
+void report_rows_add(report_rows *rows, const char *format, ...) REPORT_PRINTF(2, 3);
 void report_rows_free(report_rows *rows);
 
 /* Appends the whole file. 0: it cannot be read. */

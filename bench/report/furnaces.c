@@ -1,8 +1,8 @@
 /* furnaces.c - the white furnace: how much of constant light a rough surface that absorbs nothing sends back, over
  * roughness and view. What is missing scattered more than once; what is above 1 is no surface's.
  *
- * Energy is the mean weight of the lobe's own samples over a lattice of the square (Roberts 2018), with the difference of
- * two shifted lattices as its error. Weak furnaces are asserted in tests/test_masking.c and tests/test_lobes_energy.c. */
+ * Energy is the mean weight of the lobe's own samples over a lattice of the square (Roberts 2018), with half the
+ * difference of two shifted lattices as its error. Weak furnaces are asserted in tests/test_masking.c and tests/test_lobes_energy.c. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -11,22 +11,13 @@
 #include "page.h"
 #include "units.h"
 
-static void add(report_rows *rows, const char *format, ...) REPORT_PRINTF(2, 3);
-static void add(report_rows *rows, const char *format, ...)
-{
-	va_list arguments;
-	va_start(arguments, format);
-	report_rows_print(rows, format, arguments);
-	va_end(arguments);
-}
-
 void report_finding(report_page *page, const char *format, ...)
 {
 	va_list arguments;
 	va_start(arguments, format);
-	add(&page->findings, "- ");
+	report_rows_add(&page->findings, "- ");
 	report_rows_print(&page->findings, format, arguments);
-	add(&page->findings, " ([%s](#%s))\n", page->section, page->section);
+	report_rows_add(&page->findings, " ([%s](#%s))\n", page->section, page->section);
 	va_end(arguments);
 }
 
@@ -41,11 +32,11 @@ void report_text(report_page *page, const char *format, ...)
 void report_figure(report_page *page, const char *file, const char *format, ...)
 {
 	va_list arguments;
-	add(&page->text, "\n![](%s)\n\n", file);
+	report_rows_add(&page->text, "\n![](%s)\n\n", file);
 	va_start(arguments, format);
 	report_rows_print(&page->text, format, arguments);
 	va_end(arguments);
-	add(&page->text, " <sub>(`%s --only %s`)</sub>\n\n", page->command, page->section);
+	report_rows_add(&page->text, " <sub>(`%s --only %s`)</sub>\n\n", page->command, page->section);
 }
 
 void report_readme(report_page *page, const char *format, ...)
@@ -87,12 +78,12 @@ void report_gnuplot(report_page *page, const char *script, const char *definitio
 void report_page_section(report_page *page, const report_section *section)
 {
 	page->section = section->name;
-	add(&page->text, "\n<a id=\"%s\"></a>\n\n## %s\n\n", section->name, section->title);
-	add(&page->text, "Raw data:");
+	report_rows_add(&page->text, "\n<a id=\"%s\"></a>\n\n## %s\n\n", section->name, section->title);
+	report_rows_add(&page->text, "Raw data:");
 	for (int i = 0; i < REPORT_STUDIES_MAX && section->studies[i]; i++)
-		add(&page->text, "%s [%s.csv](%s.csv)", i ? "," : "", section->studies[i]->name,
-		    section->studies[i]->name);
-	add(&page->text, "; all of it by `%s --only %s`.\n\n", page->command, section->name);
+		report_rows_add(&page->text, "%s [%s.csv](%s.csv)", i ? "," : "", section->studies[i]->name,
+				section->studies[i]->name);
+	report_rows_add(&page->text, "; all of it by `%s --only %s`.\n\n", page->command, section->name);
 }
 
 /* The devices that the section's timings are of. */

@@ -3,9 +3,9 @@
  * A study measures in units that do not depend on each other or on the order in which they run: each appends rows to a
  * CSV, and draws its random numbers from counters, so that the rows are the same whatever the number of threads. A unit's
  * rows are kept in out/report/data/<study>/ under a key of all that they follow from - the library's source, that of the
- * section (bench/report/<section>*), the settings, and for timings the machine - so that a run does only what is not there yet, and an interrupted one
- * goes on where it stopped. When all units are there the rows become out/report/<study>.csv, and the section is written
- * from them alone.
+ * section (bench/report/<section>*) and what sections share (units.c), the settings, and for timings the machine - so
+ * that a run does only what is not there yet, and an interrupted one goes on where it stopped. When all units are there
+ * the rows become out/report/<study>.csv, and the section is written from them alone.
  *
  *	build/bench/report [--quick] [--threads N] [--only SECTION]	the page is out/report/report.md
  *

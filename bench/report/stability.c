@@ -272,11 +272,13 @@ static void write_maps(report_page *page, const report_table *t)
 						 used ? ", " : "", end, alphas[k]);
 	}
 	report_text(page, "\n");
-	report_finding(page,
-		       "Where single precision ends: half an ulp of the directions moves a GGX metal's density by more "
-		       "than 1 %% from "
-		       "a view %s down; no formula can do better with directions of floats.",
-		       used ? text : "cosine of 1e-7");
+	if (used)
+		report_finding(page,
+			       "Where single precision ends: half an ulp of the directions moves a GGX metal's density "
+			       "by more "
+			       "than 1 %% from "
+			       "a view %s down; no formula can do better with directions of floats.",
+			       text);
 }
 
 static void write_forms(report_page *page, const report_table *t)
@@ -311,7 +313,7 @@ static void write_forms(report_page *page, const report_table *t)
 			    worst[3]);
 		report_readme(page, "| %s | %.2g | %.2g | %.2g | %.2g |\n", stability_forms[f].name, worst[0], worst[1],
 			      worst[2], worst[3]);
-		if (f < 5 && used < sizeof text)
+		if (used < sizeof text)
 			used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %.1g (%.1g)", used ? ", " : "",
 						 stability_forms[f].name, worst[1], worst[3]);
 	}

@@ -258,13 +258,15 @@ static void write_recommendation(report_page *page, const rank_map *m)
 		". Against always sampling visible normals alone it needs %.3g times fewer samples at the median, %.3g "
 		"times at the 90th percentile.\n\n",
 		median, upper);
+	char probes[64] = "; no probes here";
+	if (r.n[1])
+		snprintf(probes, sizeof probes, ", probes %.1f %%", right[SAMPLES][1]);
 	report_finding(
 		page,
 		"`lobe_recommend_strategy` names a technique within 5 %% of the best of all 14 in %.1f %% of the cells "
 		"(analytic lights %.1f %%%s); it saves a factor of %.3g in samples over the default alone at the "
 		"median",
-		all[SAMPLES], right[SAMPLES][0],
-		r.n[1] ? "; probes less, being described by a fitted disk and sky" : "; no probes here", median);
+		all[SAMPLES], right[SAMPLES][0], probes, median);
 	free(room);
 }
 
@@ -294,9 +296,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		report_finding(page,
 			       "Choosing at run time costs: a batch samples `ggx_conductor` in %.1f ns and the same "
 			       "strategy of the "
-			       "comparison lobe in %.0f ns (one thread), so a strategy that is to be used belongs into "
-			       "a lobe of its "
-			       "own",
+			       "comparison lobe in %.0f ns (one thread)",
 			       fast, slow);
 	strategies_write_pictures(page, tables[4], tables[5]);
 	free(m.cell);

@@ -181,9 +181,7 @@ void strategies_write_curves(report_page *page, const rank_map *m, const report_
 		"less than independent ones at 4096 samples (median over cases and techniques).\n\n",
 		c.offs, 100.0 * rank_quantile(c.off, c.offs, 0.5), 100.0 * rank_quantile(c.off, c.offs, 0.9), c.rows,
 		c.unreported, c.quadrature, gain);
-	report_finding(
-		page,
-		"Owen-scrambled Sobol points err %.2g times less than independent ones at 4096 samples (median), which "
-		"is worth more than the choice among ways to the same visible normals",
-		gain);
+	report_finding(page,
+		       "Owen-scrambled Sobol points err %.2g times less than independent ones at 4096 samples (median)",
+		       gain);
 }

@@ -26,37 +26,55 @@ static uint64_t hash(uint64_t h, const char *text)
 	return (h ^ 0xffu) * 0x100000001b3u;
 }
 
-/* The section's own source, from the folder that the report runs in. */
-static uint64_t hash_section(uint64_t h, const char *section)
+/* Files of the folder that the report runs in. How many. */
+static size_t hash_files(uint64_t *hashed, const char *pattern)
 {
-	char pattern[256];
+	uint64_t h = *hashed;
 	glob_t files;
-	snprintf(pattern, sizeof pattern, "bench/report/%s*.[ch]", section);
-	if (glob(pattern, 0, NULL, &files) != 0) {
-		fprintf(stderr, "report: no %s: run it from the folder of the Makefile\n", pattern);
-		exit(1);
-	}
+	if (glob(pattern, 0, NULL, &files) != 0)
+		return 0;
 	for (size_t i = 0; i < files.gl_pathc; i++) {
 		report_rows text = {NULL, 0, 0};
 		if (report_rows_read(&text, files.gl_pathv[i]) && text.text)
 			h = hash(h, text.text);
 		report_rows_free(&text);
 	}
+	const size_t count = files.gl_pathc;
 	globfree(&files);
+	*hashed = h;
+	return count;
+}
+
+/* The section's own source, and what sections share that is not in the OpenCL source: cases and references of the tests,
+ * random numbers, lights, and the library's host part. */
+static uint64_t hash_sources(uint64_t h, const char *section)
+{
+	static const char *const shared[] = {
+		"tests/cases*.[ch]",      "tests/textbook.[ch]",         "tests/double*.[ch]", "tests/quadrature.[ch]",
+		"examples/common/*.[ch]", "examples/gallery/light.[ch]", "src/*.[ch]"};
+	char pattern[256];
+	snprintf(pattern, sizeof pattern, "bench/report/%s*.[ch]", section);
+	if (hash_files(&h, pattern) == 0) {
+		fprintf(stderr, "report: no %s: run it from the folder of the Makefile\n", pattern);
+		exit(1);
+	}
+	for (size_t i = 0; i < sizeof shared / sizeof *shared; i++)
+		hash_files(&h, shared[i]);
 	return h;
 }
 
 static uint64_t key_of(const report_section *section, const report_study *study, int quick)
 {
 	char text[1024];
-	uint64_t h = hash_section(hash(0xcbf29ce484222325u, lobe_opencl_source()), section->name);
+	uint64_t h = hash_sources(hash(0xcbf29ce484222325u, lobe_opencl_source()), section->name);
 	h = hash(h, study->columns);
 	h = hash(h, quick ? "quick" : "full");
 	if (study->settings)
 		h = hash(h, study->settings(quick));
-	bench_processor_name(text, sizeof text);
-	if (study->timed)
+	if (study->timed) {
+		bench_processor_name(text, sizeof text);
 		h = hash(h, text);
+	}
 	return h;
 }
 
