@@ -42,21 +42,22 @@ typedef struct {
 
 LOBE_FN lobe_film_top lobe_film_top_make(lobe_real c, lobe_real index)
 {
-	const lobe_fresnel_amplitudes m = lobe_fresnel_amplitudes_make(c, index);
+	const lobe_fresnel_interface m = lobe_fresnel_interface_unit(c, index);
+	const lobe_fresnel_amplitudes r = lobe_fresnel_amplitudes_make(m);
 	const lobe_real one = LOBE_R(1.0);
 	const lobe_real cg4 = LOBE_R(4.0) * m.c * m.g;
 	lobe_film_top t;
 	t.c = m.c;
 	t.g = m.g;
-	t.s2 = m.s2;
-	t.rs = m.r.rs;
-	t.rp = m.r.rp;
-	t.ts = m.k == LOBE_R(0.0) ? one : cg4 * m.r.a * m.r.a;
-	t.tp = m.k == LOBE_R(0.0) ? one : cg4 * m.eta2 * m.r.b * m.r.b;
+	t.s2 = (one - m.c) * (one + m.c);
+	t.rs = r.bend * r.a;
+	t.rp = r.bend * m.x * r.b;
+	t.ts = m.k == LOBE_R(0.0) ? one : cg4 * r.a * r.a;
+	t.tp = m.k == LOBE_R(0.0) ? one : cg4 * m.eta2 * r.b * r.b;
 	return t;
 }
 
-/* The interface below, one polarisation: amplitude, in the signs of lobe_fresnel_amplitudes, and transmittance. */
+/* The interface below, one polarisation: amplitude, in the signs of lobe_film_top, and transmittance. */
 typedef struct {
 	lobe_complex r;
 	lobe_real t;
@@ -93,6 +94,30 @@ LOBE_FN lobe_film_bottoms lobe_film_bottoms_conductor(lobe_film_top top, lobe_re
 	b.s = lobe_film_bottom_from_ratio(lobe_complex_make(top.g, zero), root);
 	b.p = lobe_film_bottom_from_ratio(lobe_complex_scale(root, index * index), n2_g);
 	return b;
+}
+
+/* Amplitudes between two dielectrics of indices n1 and n2, from n1 cos_1 = c and n2 cos_2 = g, k = n2^2 - n1^2 = g^2 - c^2
+ * and s2, the square of n sin on both sides. With A = c + g, B = n2^2 c + n1^2 g they (Born and Wolf, 1.5.2)
+ *	r_s = (c - g)/A                = -k/A^2
+ *	r_p = (n2^2 c - n1^2 g)/B      = k (c g - s2)/(A B)
+ * are free of cancellation however near the indices are (but for the zero of r_p at Brewster's angle).
+ * a = 1/A, b = 1/B, rs = -r_s, rp = r_p. */
+typedef struct {
+	lobe_real a, b, rs, rp;
+} lobe_fresnel_pair;
+
+LOBE_FN lobe_fresnel_pair lobe_fresnel_pair_make(lobe_real c, lobe_real g, lobe_real k, lobe_real s2,
+						 lobe_real n1_squared, lobe_real n2_squared)
+{
+	const lobe_real big_a = c + g;
+	const lobe_real big_b = lobe_fma(n2_squared, c, n1_squared * g);
+	const lobe_real inv = LOBE_R(1.0) / (big_a * big_b);
+	lobe_fresnel_pair f;
+	f.a = inv * big_b;
+	f.b = inv * big_a;
+	f.rs = k * f.a * f.a;
+	f.rp = k * lobe_fma(c, g, -s2) * f.a * f.b;
+	return f;
 }
 
 /* film to a dielectric of index eta >= 1. */

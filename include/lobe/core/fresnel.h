@@ -5,6 +5,7 @@
 #ifndef LOBE_CORE_FRESNEL_H
 #define LOBE_CORE_FRESNEL_H
 
+#include "real.h"
 #include "vec.h"
 
 /* reflectance + transmittance = 1 to rounding. cos_t: cosine of the refracted side, >= 0; 0 at total reflection.
@@ -13,78 +14,150 @@ typedef struct {
 	lobe_real reflectance, transmittance, cos_t, bend;
 } lobe_fresnel;
 
-/* Amplitudes between two dielectrics of indices n1 and n2, from n1 cos_1 = c and n2 cos_2 = g, k = n2^2 - n1^2 = g^2 - c^2
- * and s2, the square of n sin on both sides. With A = c + g, B = n2^2 c + n1^2 g they (Born and Wolf, 1.5.2)
- *	r_s = (c - g)/A                = -k/A^2
- *	r_p = (n2^2 c - n1^2 g)/B      = k (c g - s2)/(A B)
- * are free of cancellation however near the indices are (but for the zero of r_p at Brewster's angle).
- * a = 1/A, b = 1/B, rs = -r_s, rp = r_p. */
-typedef struct {
-	lobe_real a, b, rs, rp;
-} lobe_fresnel_pair;
+/* The root of g^2, 0 where that is below 0: at total reflection. */
+LOBE_FN lobe_real lobe_fresnel_g(lobe_real g2) { return lobe_sqrt(lobe_max(LOBE_R(0.0), g2)); }
 
-LOBE_FN lobe_fresnel_pair lobe_fresnel_pair_make(lobe_real c, lobe_real g, lobe_real k, lobe_real s2,
-						 lobe_real n1_squared, lobe_real n2_squared)
+/* The interface of index eta, at a normal m of any length: c = w.m, g = eta |m| cos_t, m2 = |m|^2 and
+ * x = c g - |w x m|^2 for the unit direction w. All of it scales with |m|, on which no reflectance depends, so that a facet
+ * or a half vector need not be normalised. k = (eta - 1)(eta + 1). */
+typedef struct {
+	lobe_real c, g, x, m2;
+	lobe_real eta, eta2, k;
+} lobe_fresnel_interface;
+
+/* What the index gives. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_make(lobe_real eta)
 {
-	const lobe_real big_a = c + g;
-	const lobe_real big_b = lobe_fma(n2_squared, c, n1_squared * g);
-	const lobe_real inv = LOBE_R(1.0) / (big_a * big_b);
-	lobe_fresnel_pair f;
-	f.a = inv * big_b;
-	f.b = inv * big_a;
-	f.rs = k * f.a * f.a;
-	f.rp = k * lobe_fma(c, g, -s2) * f.a * f.b;
+	lobe_fresnel_interface f;
+	f.eta = eta;
+	f.eta2 = eta * eta;
+	f.k = (eta - LOBE_R(1.0)) * (eta + LOBE_R(1.0));
+	f.c = f.g = f.x = f.m2 = LOBE_R(0.0);
 	return f;
 }
 
-/* The interface of index eta. c: at least 2^-40; g = eta cos_t, 0 at total reflection; k = (eta - 1)(eta + 1);
- * s2 = sin^2. */
+/* a where first, else b. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_select(int first, lobe_fresnel_interface a,
+							     lobe_fresnel_interface b)
+{
+	b.c = first ? a.c : b.c;
+	b.g = first ? a.g : b.g;
+	b.x = first ? a.x : b.x;
+	b.m2 = first ? a.m2 : b.m2;
+	b.eta = first ? a.eta : b.eta;
+	b.eta2 = first ? a.eta2 : b.eta2;
+	b.k = first ? a.k : b.k;
+	return b;
+}
+
+/* At a unit normal, from the cosine: g^2 is c^2 + k or, where that cancels, eta^2 - sin^2. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_unit(lobe_real c, lobe_real eta)
+{
+	const lobe_real one = LOBE_R(1.0);
+	lobe_fresnel_interface f = lobe_fresnel_interface_make(eta);
+	f.c = c;
+	const lobe_real s2 = (one - f.c) * (one + f.c);
+	const lobe_real thin = lobe_fma(eta, eta, -s2);
+	const lobe_real thick = lobe_fma(f.c, f.c, f.k);
+	f.g = lobe_fresnel_g(f.eta2 < LOBE_R(0.5) ? thin : thick);
+	f.x = lobe_fma(f.c, f.g, -s2);
+	f.m2 = one;
+	return f;
+}
+
+/* From cosine and s2 = |w x m|^2: m2 = c^2 + s2 and g^2 = eta^2 c^2 + k s2. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_at(lobe_fresnel_interface f, lobe_real c, lobe_real s2)
+{
+	f.c = c;
+	const lobe_real c2 = f.c * f.c;
+	f.g = lobe_fresnel_g(lobe_fma(f.k, s2, f.eta2 * c2));
+	f.x = lobe_fma(f.c, f.g, -s2);
+	f.m2 = c2 + s2;
+	return f;
+}
+
+/* From both cosines and m2. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_between(lobe_fresnel_interface f, lobe_real c, lobe_real g,
+							      lobe_real m2)
+{
+	f.c = c;
+	f.g = g;
+	f.x = lobe_fma(c, c + g, -m2);
+	f.m2 = m2;
+	return f;
+}
+
+/* Amplitudes (Born and Wolf, 1.5.2) from A = c + g and B = eta^2 c + g,
+ *	r_s = (c - g)/A         = -bend m2 a,       bend = k/A, a = 1/A
+ *	r_p = (eta^2 c - g)/B   = bend x b,         b = 1/B
+ * free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle). bend is that of lobe_refract,
+ * for m of whatever length. (2^-60: where eta = 1 and c = 0, or c = 0 in total reflection, A and B are 0.) */
 typedef struct {
-	lobe_real c, g, k, s2, eta2;
-	lobe_fresnel_pair r;
-	int total;
+	lobe_real a, b, bend;
 } lobe_fresnel_amplitudes;
 
-/* Domain: eta in [1/1000, 1000]. g^2 is c^2 + k or, where that cancels, eta^2 - sin^2. */
-LOBE_FN lobe_fresnel_amplitudes lobe_fresnel_amplitudes_make(lobe_real c_in, lobe_real eta)
+LOBE_FN lobe_fresnel_amplitudes lobe_fresnel_amplitudes_make(lobe_fresnel_interface f)
 {
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	lobe_fresnel_amplitudes f;
-	f.c = lobe_max(c_in, LOBE_R(0x1p-40));
-	f.k = (eta - one) * (eta + one);
-	f.eta2 = eta * eta;
-	f.s2 = (one - f.c) * (one + f.c);
-	const lobe_real g2_thin = lobe_fma(eta, eta, -f.s2);
-	const lobe_real g2_thick = lobe_fma(f.c, f.c, f.k);
-	const lobe_real g2 = f.eta2 < LOBE_R(0.5) ? g2_thin : g2_thick;
-	f.total = g2 <= zero;
-	f.g = lobe_sqrt(f.total ? zero : g2);
-	f.r = lobe_fresnel_pair_make(f.c, f.g, f.k, f.s2, one, f.eta2);
-	return f;
+	const lobe_real c = f.c + LOBE_R(0x1p-60);
+	const lobe_real big_a = c + f.g;
+	const lobe_real big_b = lobe_fma(f.eta2, c, f.g);
+	const lobe_real inv = LOBE_R(1.0) / (big_a * big_b);
+	lobe_fresnel_amplitudes r;
+	r.a = inv * big_b;
+	r.b = inv * big_a;
+	r.bend = f.k * r.a;
+	return r;
+}
+
+/* Reflectance F and transmittance 1 - F = 2 g c (1/A^2 + eta^2/B^2), which does not cancel near total reflection, have one
+ * form, s t ((x a)^2 + (y b)^2): with s = bend, t = bend/2 and (x, y) = (m2, x), or with s = c, t = 2 g and (1, eta). */
+LOBE_FN lobe_real lobe_fresnel_part(lobe_fresnel_amplitudes r, lobe_real s, lobe_real t, lobe_real x, lobe_real y)
+{
+	const lobe_real xa = x * r.a, yb = y * r.b;
+	return (s * t) * lobe_fma(xa, xa, yb * yb);
+}
+
+LOBE_FN lobe_real lobe_fresnel_reflectance(lobe_fresnel_interface f, lobe_fresnel_amplitudes r)
+{
+	return lobe_fresnel_part(r, r.bend, LOBE_R(0.5) * r.bend, f.m2, f.x);
+}
+
+LOBE_FN lobe_real lobe_fresnel_transmittance(lobe_fresnel_interface f, lobe_fresnel_amplitudes r)
+{
+	return lobe_fresnel_part(r, f.c, f.g + f.g, LOBE_R(1.0), f.eta);
+}
+
+/* One of the two. */
+LOBE_FN lobe_real lobe_fresnel_share(lobe_fresnel_interface f, int reflects)
+{
+	const lobe_fresnel_amplitudes r = lobe_fresnel_amplitudes_make(f);
+	const lobe_real one = LOBE_R(1.0), half_bend = LOBE_R(0.5) * r.bend, g2 = f.g + f.g;
+	const lobe_real share = lobe_fresnel_part(r, reflects ? r.bend : f.c, reflects ? half_bend : g2,
+						  reflects ? f.m2 : one, reflects ? f.x : f.eta);
+	return lobe_at_most(share, one);
 }
 
 /* Exact dielectric Fresnel. Domain: eta in [1/1000, 1000]. Near total reflection
  *	1 - F = 2 g c (1/A^2 + eta^2/B^2)
- * does not cancel either. eta = 1 is no interface: F = 0 even at c = 0. Below 2^-40 c counts as 2^-40. A NaN eta gives
- * NaN.
+ * does not cancel either. eta = 1 is no interface: F = 0 even at c = 0. A NaN eta gives NaN.
  *
- * Relative error, eta > 1: reflectance 9.3e-7, transmittance 4.4e-7, cos_t 1.4e-7; eta < 1, beyond what a rounding of
+ * Relative error, eta > 1: reflectance 8.4e-7, transmittance 5.3e-7, cos_t 1.4e-7; eta < 1, beyond what a rounding of
  * eta or c does near the edge of total reflection: 7.7e-7, 3.4e-7, 1.4e-7 (tests/test_fresnel.c, against MPFR). */
 LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
 {
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
-	const lobe_fresnel_amplitudes m = lobe_fresnel_amplitudes_make(c, eta);
-	const lobe_real refl = LOBE_R(0.5) * lobe_fma(m.r.rs, m.r.rs, m.r.rp * m.r.rp);
-	const lobe_real trans = two * m.g * m.c * lobe_fma(m.r.a, m.r.a, m.eta2 * m.r.b * m.r.b);
-	const lobe_real refl_at_most_1 = lobe_at_most(refl, one);
-	const lobe_real trans_at_most_1 = lobe_at_most(trans, one);
-	const lobe_real through = m.k == zero ? one : trans_at_most_1;
-	lobe_fresnel f;
-	f.reflectance = m.total ? one : refl_at_most_1;
-	f.transmittance = m.total ? zero : through;
-	f.cos_t = m.g / eta;
-	f.bend = m.k * m.r.a;
-	return f;
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	const lobe_fresnel_interface f = lobe_fresnel_interface_unit(c, eta);
+	const lobe_fresnel_amplitudes m = lobe_fresnel_amplitudes_make(f);
+	const int total = (f.g <= zero) & (f.k < zero);
+	const lobe_real reflected = lobe_at_most(lobe_fresnel_reflectance(f, m), one);
+	const lobe_real transmitted = lobe_at_most(lobe_fresnel_transmittance(f, m), one);
+	const lobe_real through = f.k == zero ? one : transmitted;
+	lobe_fresnel r;
+	r.reflectance = total ? one : reflected;
+	r.transmittance = total ? zero : through;
+	r.cos_t = f.g / eta;
+	r.bend = m.bend;
+	return r;
 }
 
 /* The refracted direction of w through an interface with unit normal m, both on the incident side: w.m = c > 0, and
@@ -103,31 +176,28 @@ LOBE_FN lobe_vec3 lobe_reflect(lobe_vec3 w, lobe_vec3 m, lobe_real c)
 	return lobe_vec3_fma(c + c, m, lobe_vec3_make(-w.x, -w.y, -w.z));
 }
 
-/* What lobe_fresnel_conductor needs of the angle, shared by the three colours. */
+/* What lobe_fresnel_conductor needs of the angle, shared by the three colours: c2 and s2 are cos^2 and sin^2, s4 = s2^2,
+ * root2_c = sqrt(2) cos. */
 typedef struct {
-	lobe_real c, c2, s2, s4;
+	lobe_real c2, s2, s4, root2_c;
 } lobe_fresnel_angle;
 
-LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_make(lobe_real c)
+LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_of(lobe_real c2, lobe_real s2)
 {
-	const lobe_real one = LOBE_R(1.0);
 	lobe_fresnel_angle a;
-	a.c = c;
-	a.c2 = c * c;
-	a.s2 = (one - c) * (one + c);
-	a.s4 = a.s2 * a.s2;
+	a.c2 = c2;
+	a.s2 = s2;
+	a.s4 = s2 * s2;
+	a.root2_c = lobe_sqrt(c2 + c2);
 	return a;
 }
 
-/* From the square of the cosine, where that is known first: the root is then not on the way to all the rest. */
-LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos2(lobe_real c2)
+/* From the square of the cosine, or from the cosine. */
+LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_make(lobe_real c2) { return lobe_fresnel_angle_of(c2, LOBE_R(1.0) - c2); }
+
+LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_from_cos(lobe_real c)
 {
-	lobe_fresnel_angle a;
-	a.c = lobe_sqrt(c2);
-	a.c2 = c2;
-	a.s2 = LOBE_R(1.0) - c2;
-	a.s4 = a.s2 * a.s2;
-	return a;
+	return lobe_fresnel_angle_of(c * c, (LOBE_R(1.0) - c) * (LOBE_R(1.0) + c));
 }
 
 /* The root A + iK of (n + ik)^2 - sin^2, K >= 0, by its larger part: what a metal makes of the cosine, as g is of a
@@ -153,61 +223,47 @@ LOBE_FN lobe_fresnel_conductor_root lobe_fresnel_conductor_root_make(lobe_real s
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
- * The usual form (Born and Wolf, 14.2) needs 2Ac and q. Multiplied through by B = max(A, K), both cases of the root need
- * one root and no division:
- *	F_s = N/D,  N, D = (q + c^2) B -+ X c,        X = q + t if t >= 0, else 2nk
- *	F = F_s E/(E + X c s^2),                      E = (q c^2 + s^4) B
+ * The usual form (Born and Wolf, 14.2) needs 2Ac and q. Multiplied through by B = sqrt(2) max(A, K), both cases of the root
+ * need one root and no division:
+ *	F_s = N/D,  N, D = (q + c^2) B -+ X c sqrt(2),        X = q + t if t >= 0, else 2nk
+ *	F = F_s E/(E + X c sqrt(2) s^2),                      E = (q c^2 + s^4) B
  * where the second line is (F_s + F_p)/2. Error 3.1e-7 relative for real metals, 3.1e-7 absolute over the domain, but
  * for what a rounding of t does where n^2 is near sin^2 and k near 0 (tests/test_fresnel.c).
  *
- * The terms of F = N E/(D (E + X c s^2)), of which numerator and denominator are made. */
-typedef struct {
-	lobe_real p, xc, e, scale;
-} lobe_fresnel_conductor_terms;
-
-LOBE_FN lobe_fresnel_conductor_terms lobe_fresnel_conductor_terms_make(lobe_fresnel_angle a, lobe_real n, lobe_real k)
+ * den is mostly between 1e-12 and 8e18 over the domain; 0 where k = 0 and n = sin, which 2^-75 keeps it off. num, which is
+ * a rounding of 0 where there is hardly an interface, may have either sign. */
+LOBE_FN lobe_quotient lobe_fresnel_conductor_quotient(lobe_fresnel_angle a, lobe_real n, lobe_real k)
 {
 	const lobe_fresnel_conductor_root r = lobe_fresnel_conductor_root_make(a.s2, n, k);
-	lobe_fresnel_conductor_terms f;
-	f.xc = (r.t >= LOBE_R(0.0) ? r.sum : r.nk2) * a.c;
-	f.p = (r.q + a.c2) * r.big;
-	f.e = lobe_fma(r.q, a.c2, a.s4) * r.big;
-	f.scale = lobe_fma(f.xc, a.s2, f.e);
+	const lobe_real b = lobe_sqrt(r.sum);
+	const lobe_real xc = (r.t >= LOBE_R(0.0) ? r.sum : r.nk2) * a.root2_c;
+	const lobe_real p = (r.q + a.c2) * b;
+	const lobe_real e = lobe_fma(r.q, a.c2, a.s4) * b;
+	lobe_quotient f;
+	f.num = (p - xc) * e;
+	f.den = lobe_fma(p + xc, lobe_fma(xc, a.s2, e), LOBE_R(0x1p-75));
 	return f;
-}
-
-LOBE_FN lobe_real lobe_fresnel_conductor_num(lobe_fresnel_conductor_terms f) { return (f.p - f.xc) * f.e; }
-
-/* Mostly between 1e-12 and 4e18 over the domain; 0 where k = 0 and n = sin, which 2^-75 keeps it off. */
-LOBE_FN lobe_real lobe_fresnel_conductor_den(lobe_fresnel_conductor_terms f)
-{
-	return lobe_fma(f.p + f.xc, f.scale, LOBE_R(0x1p-75));
 }
 
 LOBE_FN lobe_real lobe_fresnel_conductor(lobe_real c, lobe_real n, lobe_real k)
 {
-	const lobe_fresnel_conductor_terms f = lobe_fresnel_conductor_terms_make(lobe_fresnel_angle_make(c), n, k);
-	return lobe_max(lobe_fresnel_conductor_num(f) / lobe_fresnel_conductor_den(f), LOBE_R(0.0));
+	const lobe_quotient f = lobe_fresnel_conductor_quotient(lobe_fresnel_angle_from_cos(c), n, k);
+	return lobe_finite_or_zero(lobe_abs(f.num / f.den));
 }
 
-/* The three colours; red and green share a division, as the range of the denominators allows for two. */
-LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle a, lobe_rgb n, lobe_rgb k)
+/* x times the reflectance of three colours, where x is a finite number; not negative if x is not. */
+LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle a, lobe_rgb n, lobe_rgb k, lobe_real x)
 {
-	const lobe_real zero = LOBE_R(0.0);
-	const lobe_fresnel_conductor_terms r = lobe_fresnel_conductor_terms_make(a, n.r, k.r);
-	const lobe_fresnel_conductor_terms g = lobe_fresnel_conductor_terms_make(a, n.g, k.g);
-	const lobe_fresnel_conductor_terms b = lobe_fresnel_conductor_terms_make(a, n.b, k.b);
-	const lobe_real den_r = lobe_fresnel_conductor_den(r);
-	const lobe_real den_g = lobe_fresnel_conductor_den(g);
-	const lobe_real inv = LOBE_R(1.0) / (den_r * den_g);
-	return lobe_rgb_make(lobe_max(lobe_fresnel_conductor_num(r) * (den_g * inv), zero),
-			     lobe_max(lobe_fresnel_conductor_num(g) * (den_r * inv), zero),
-			     lobe_max(lobe_fresnel_conductor_num(b) / lobe_fresnel_conductor_den(b), zero));
+	const lobe_quotient r = lobe_fresnel_conductor_quotient(a, n.r, k.r);
+	const lobe_quotient g = lobe_fresnel_conductor_quotient(a, n.g, k.g);
+	const lobe_quotient b = lobe_fresnel_conductor_quotient(a, n.b, k.b);
+	return lobe_rgb_make(lobe_abs(r.num * x / r.den), lobe_abs(g.num * x / g.den), lobe_abs(b.num * x / b.den));
 }
 
 LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
 {
-	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_make(c), n, k);
+	return lobe_rgb_finite_or_zero(
+		lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_from_cos(c), n, k, LOBE_R(1.0)));
 }
 
 #endif

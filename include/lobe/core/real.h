@@ -32,6 +32,7 @@ typedef struct {
 
 #if LOBE_DOUBLE
 
+LOBE_FN lobe_real lobe_times_sign(lobe_real x, lobe_real s) { return signbit(s) ? -x : x; }
 LOBE_FN lobe_real lobe_sin(lobe_real x) { return sin(x); }
 LOBE_FN lobe_real lobe_cos(lobe_real x) { return cos(x); }
 LOBE_FN lobe_real lobe_tan(lobe_real x) { return tan(x); }
@@ -61,6 +62,7 @@ LOBE_FN lobe_sincos lobe_sincos_2pi(lobe_real u)
 	r.c = quarter == 0.0 ? c : quarter == 1.0 ? -s : quarter == -1.0 ? s : -c;
 	return r;
 }
+LOBE_FN lobe_sincos lobe_sincos_2pi_small(lobe_real u) { return lobe_sincos_2pi(u); }
 
 /* From x = 3 on by the tail T = (1/2)/(x + 1/(x + (3/2)/(x + ... of the continued fraction sqrt(pi) erfcx(x) = 1/(x + T),
  * good to a rounding; below, by the definitions. */
@@ -135,6 +137,8 @@ LOBE_FN lobe_real lobe_nan_or(lobe_real x, lobe_real v) { return x == x ? v : lo
 
 LOBE_FN lobe_uint lobe_sign_bit(lobe_real x) { return lobe_to_bits(x) & 0x80000000u; }
 LOBE_FN lobe_real lobe_flip_sign(lobe_real x, lobe_uint sign_bit) { return lobe_from_bits(lobe_to_bits(x) ^ sign_bit); }
+/* x, or -x where s carries a minus. */
+LOBE_FN lobe_real lobe_times_sign(lobe_real x, lobe_real s) { return lobe_flip_sign(x, lobe_sign_bit(s)); }
 
 #include "trig.h"
 #include "explog.h"

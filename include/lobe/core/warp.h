@@ -58,7 +58,7 @@ LOBE_FN lobe_disk_polar lobe_concentric_polar(lobe_vec2 u)
 LOBE_FN lobe_vec2 lobe_concentric_disk(lobe_vec2 u)
 {
 	const lobe_disk_polar p = lobe_concentric_polar(u);
-	const lobe_sincos sc = lobe_sincos_2pi(p.turns);
+	const lobe_sincos sc = lobe_sincos_2pi_small(p.turns);
 	return lobe_vec2_make(p.r * sc.c, p.r * sc.s);
 }
 
@@ -86,7 +86,7 @@ LOBE_FN lobe_vec2 lobe_concentric_disk_inverse(lobe_vec2 d)
 LOBE_FN lobe_vec3 lobe_cosine_hemisphere(lobe_vec2 u)
 {
 	const lobe_disk_polar p = lobe_concentric_polar(u);
-	const lobe_sincos sc = lobe_sincos_2pi(p.turns);
+	const lobe_sincos sc = lobe_sincos_2pi_small(p.turns);
 	const lobe_real one = LOBE_R(1.0);
 	return lobe_vec3_make(p.r * sc.c, p.r * sc.s, lobe_sqrt((one - p.r) * (one + p.r)));
 }
@@ -108,7 +108,7 @@ LOBE_FN lobe_vec3 lobe_sphere_cap(lobe_vec2 u, lobe_real radius, lobe_real heigh
 {
 	const lobe_real h = u.y * height;
 	const lobe_real s = lobe_sqrt(h * ((radius + radius) - h));
-	const lobe_sincos sc = lobe_sincos_2pi(u.x);
+	const lobe_sincos sc = lobe_sincos_2pi_small(u.x);
 	return lobe_vec3_make(s * sc.c, s * sc.s, radius - h);
 }
 

@@ -41,13 +41,15 @@ LOBE_FN lobe_iridescent_dielectric lobe_iridescent_dielectric_transport(lobe_iri
 	return p;
 }
 
-/* What a facet does to light at cosine c; fr: what it does without the film. The film is looked at from the thinner
- * medium: at total reflection from within the cosine there is 0, where everything is reflected. */
+/* What a facet does to light, from its interface without the film. The film is looked at from the thinner medium: at total
+ * reflection from within the cosine there is 0, where everything is reflected. */
 LOBE_FN lobe_film_fresnel lobe_iridescent_dielectric_film(lobe_iridescent_dielectric p, lobe_rough_dielectric_view v,
-							  lobe_real c, lobe_fresnel fr)
+							  lobe_fresnel_interface at)
 {
-	const int inside = v.e < LOBE_R(1.0);
-	return lobe_thin_film_dielectric_rgb(inside ? fr.cos_t : c, p.film, inside ? v.inv_e : v.e);
+	const int inside = v.side.at.eta < LOBE_R(1.0);
+	const lobe_real c = (inside ? at.g * v.side.inv_e : at.c) / lobe_sqrt(at.m2);
+	return lobe_thin_film_dielectric_rgb(lobe_at_most(c, LOBE_R(1.0)), p.film,
+					     inside ? v.side.inv_e : v.side.at.eta);
 }
 
 /* The share of an event and its mean. */
@@ -70,8 +72,7 @@ LOBE_FN lobe_iridescent_share lobe_iridescent_dielectric_share(lobe_iridescent_d
 							       lobe_rough_dielectric_view v,
 							       lobe_rough_dielectric_facet m)
 {
-	const lobe_fresnel fr = lobe_fresnel_dielectric(m.c, v.e);
-	return lobe_iridescent_share_make(lobe_iridescent_dielectric_film(p, v, m.c, fr), m.reflects);
+	return lobe_iridescent_share_make(lobe_iridescent_dielectric_film(p, v, m.at), m.reflects);
 }
 
 /* f |cos theta_i| [1/sr] */
@@ -80,12 +81,12 @@ LOBE_FN lobe_rgb lobe_iridescent_dielectric_eval(lobe_iridescent_dielectric p, l
 	const lobe_uint ndf = LOBE_NDF_GGX;
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p.glass, wo);
 	const lobe_vec3 i = lobe_rough_dielectric_flip(wo, wi);
-	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p.glass, v, i);
+	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_of(ndf, p.glass, v, i);
 	const lobe_iridescent_share s = lobe_iridescent_dielectric_share(p, v, m);
-	const lobe_real g = lobe_rough_dielectric_g2_over_cos(ndf, p.glass, v, i, m.reflects);
-	return lobe_rgb_make(lobe_rough_dielectric_eval_at(v, m, s.rgb.r, g),
-			     lobe_rough_dielectric_eval_at(v, m, s.rgb.g, g),
-			     lobe_rough_dielectric_eval_at(v, m, s.rgb.b, g));
+	const lobe_real weight = lobe_rough_dielectric_weight(ndf, p.glass, v, i, m.reflects);
+	return lobe_rgb_make(lobe_rough_dielectric_eval_at(v, m, s.rgb.r, weight),
+			     lobe_rough_dielectric_eval_at(v, m, s.rgb.g, weight),
+			     lobe_rough_dielectric_eval_at(v, m, s.rgb.b, weight));
 }
 
 /* [1/sr] */
@@ -94,7 +95,7 @@ LOBE_FN lobe_real lobe_iridescent_dielectric_pdf(lobe_iridescent_dielectric p, l
 	const lobe_uint ndf = LOBE_NDF_GGX;
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p.glass, wo);
 	const lobe_vec3 i = lobe_rough_dielectric_flip(wo, wi);
-	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p.glass, v, i);
+	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_of(ndf, p.glass, v, i);
 	return lobe_rough_dielectric_pdf_at(v, m, lobe_iridescent_dielectric_share(p, v, m).mean);
 }
 
@@ -103,27 +104,18 @@ LOBE_FN lobe_real lobe_iridescent_dielectric_pdf(lobe_iridescent_dielectric p, l
 LOBE_FN lobe_sample lobe_iridescent_dielectric_sample(lobe_iridescent_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
 	const lobe_uint ndf = LOBE_NDF_GGX;
-	const int delta = p.glass.delta != 0u;
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p.glass, wo);
 	const lobe_rough_dielectric_choice s = lobe_rough_dielectric_choose(ndf, p.glass, v, u);
-	const lobe_film_fresnel f = lobe_iridescent_dielectric_film(p, v, s.c, s.fr);
+	const lobe_film_fresnel f = lobe_iridescent_dielectric_film(p, v, s.at);
 	const int reflects = u.z < f.mean_reflectance;
-	const lobe_rough_dielectric_exit x = lobe_rough_dielectric_leave(v, s, reflects);
-	const lobe_vec3 wi = lobe_rough_dielectric_flip(wo, x.i);
-	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p.glass, v, x.i);
-	/* The facet as eval and pdf find it again; there is none for a delta event, which keeps the sampled one's share. */
-	const lobe_iridescent_share found = lobe_iridescent_dielectric_share(p, v, m);
-	const lobe_iridescent_share chosen = lobe_iridescent_share_make(f, reflects);
-	const lobe_real density = lobe_rough_dielectric_pdf_at(v, m, found.mean);
-	const int straight = delta & !reflects;
-	const lobe_real pdf = straight ? chosen.mean : density;
-	const lobe_real w = lobe_rough_dielectric_weight(ndf, p.glass, v, x.i, reflects);
-	const lobe_real per_mean = w / (straight ? chosen.mean : found.mean);
-	const lobe_rgb colour =
-		lobe_rgb_make(straight ? chosen.rgb.r : found.rgb.r, straight ? chosen.rgb.g : found.rgb.g,
-			      straight ? chosen.rgb.b : found.rgb.b);
-	return lobe_sample_select(lobe_min(x.right_side, pdf) > LOBE_R(0.0), wi,
-				  lobe_rgb_finite_or_zero(lobe_rgb_scale(colour, per_mean)), pdf,
+	const lobe_vec3 i = lobe_rough_dielectric_leave(v, s, reflects);
+	const lobe_rough_dielectric_facet m =
+		lobe_rough_dielectric_facet_again(ndf, p.glass, v, s, i, reflects, LOBE_R(1.0));
+	const lobe_iridescent_share share = lobe_iridescent_dielectric_share(p, v, m);
+	const lobe_real pdf = lobe_rough_dielectric_pdf_at(v, m, share.mean);
+	const lobe_real w = lobe_rough_dielectric_sample_weight(ndf, p.glass, v, i, reflects);
+	return lobe_sample_select(pdf > LOBE_R(0.0), lobe_rough_dielectric_flip(wo, i),
+				  lobe_rgb_finite_or_zero(lobe_rgb_scale(share.rgb, w / share.mean)), pdf,
 				  lobe_rough_dielectric_event(p.glass, reflects));
 }
 

@@ -27,17 +27,20 @@
 #define LOBE_SQRT_PI     LOBE_R(1.77245385090551602730)
 #define LOBE_INV_SQRT_PI LOBE_R(0.564189583547756286948)
 
-/* pi D = exp(-tan^2)/cos^4, inv over s. Infinite or NaN for h.z = 0. */
-LOBE_FN lobe_facet_density lobe_beckmann_density_over(lobe_vec3 h, lobe_real s)
+/* pi D = exp(-tan^2)/cos^4, inv over s. h2: the squares of h. Infinite or NaN for h.z = 0. */
+LOBE_FN lobe_facet_density lobe_beckmann_density_over(lobe_vec3 h2, lobe_real s)
 {
 	lobe_facet_density d;
-	const lobe_real inv = LOBE_R(1.0) / (h.z * h.z);
+	const lobe_real inv = LOBE_R(1.0) / h2.z;
 	d.inv = inv * (LOBE_R(1.0) / s); /* apart, as the exponential is long enough without waiting for s */
-	d.factor = lobe_exp(-lobe_fma(h.x, h.x, h.y * h.y) * inv);
+	d.factor = lobe_exp(-(h2.x + h2.y) * inv);
 	return d;
 }
 
-LOBE_FN lobe_facet_density lobe_beckmann_density(lobe_vec3 h) { return lobe_beckmann_density_over(h, LOBE_R(1.0)); }
+LOBE_FN lobe_facet_density lobe_beckmann_density(lobe_vec3 h)
+{
+	return lobe_beckmann_density_over(lobe_vec3_squares(h), LOBE_R(1.0));
+}
 
 LOBE_FN lobe_real lobe_beckmann_tail(lobe_real t2) { return lobe_exp(-t2); }
 

@@ -26,15 +26,16 @@ LOBE_FN lobe_real lobe_rough_conductor_params(lobe_rough_conductor p)
 	return p.stretch.norm + p.eta.r + p.eta.g + p.eta.b + p.k.r + p.k.g + p.k.b;
 }
 
-LOBE_FN lobe_rgb lobe_rough_conductor_fresnel(lobe_rough_conductor p, lobe_real h2)
+/* x times the reflectance; h2: |wo + wi|^2 = 4 c^2. */
+LOBE_FN lobe_rgb lobe_rough_conductor_fresnel(lobe_rough_conductor p, lobe_real h2, lobe_real x)
 {
-	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_from_cos2(LOBE_R(0.25) * h2), p.eta, p.k);
+	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_make(LOBE_R(0.25) * h2), p.eta, p.k, x);
 }
 
 LOBE_FN lobe_rgb lobe_rough_conductor_eval(lobe_uint ndf, lobe_rough_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_reflection_eval r = lobe_reflection_eval_at(ndf, p.stretch, lobe_rough_conductor_params(p), wo, wi);
-	return lobe_reflection_tint(r, lobe_rough_conductor_fresnel(p, r.h2));
+	return lobe_reflection_eval_result(r, lobe_rough_conductor_fresnel(p, r.h2, r.value));
 }
 
 LOBE_FN lobe_real lobe_rough_conductor_pdf(lobe_uint ndf, lobe_rough_conductor p, lobe_vec3 wo, lobe_vec3 wi)
@@ -46,7 +47,7 @@ LOBE_FN lobe_sample lobe_rough_conductor_sample(lobe_uint ndf, lobe_rough_conduc
 {
 	const lobe_reflection_sample r =
 		lobe_reflection_sample_at(ndf, p.stretch, lobe_rough_conductor_params(p), wo, u);
-	return lobe_reflection_tint_sample(r, lobe_rough_conductor_fresnel(p, r.h2));
+	return lobe_reflection_sample_result(r, lobe_rough_conductor_fresnel(p, r.h2, r.weight));
 }
 
 #endif

@@ -23,8 +23,8 @@
 #include "ndf.h"
 #include "stretch.h"
 
-/* ndf: LOBE_NDF_*, a constant. stretch: widths along tangent and bitangent. eta: index below over index above the surface, in [1/1000, 1000]; inv_eta is
- * 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. */
+/* ndf: LOBE_NDF_*, a constant. stretch: widths along tangent and bitangent. eta: index below over index above the surface,
+ * in [1/1000, 1000]; inv_eta is 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. */
 typedef struct {
 	lobe_stretch stretch;
 	lobe_real eta, inv_eta;
@@ -55,95 +55,138 @@ LOBE_FN lobe_real lobe_rough_dielectric_t(lobe_uint ndf, lobe_rough_dielectric p
 	return lobe_ndf_t(ndf, lobe_stretch_direction(p.stretch, w));
 }
 
-/* The interface seen from wo's side, with wo above: e is the far index over the near one. */
+/* The interface seen from one side. at: without an angle yet; its eta is the far index over the near one, e. scale: of what
+ * refraction carries. A refracted direction is -1/e times w + bend m, of which the length is off by a rounding of the cosine
+ * over e, 1e-4 at most. Where e < 1 a step of Newton's method takes that off again: its length becomes 1 when it is
+ * multiplied by step |w + bend m|^2 + start, which is -1/e else, so that at e = 1 exactly -w is left. */
+typedef struct {
+	lobe_fresnel_interface at;
+	lobe_real inv_e, scale, step, start;
+} lobe_rough_dielectric_side;
+
+LOBE_FN lobe_rough_dielectric_side lobe_rough_dielectric_side_make(lobe_real e, lobe_real inv_e, lobe_uint transport)
+{
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	const lobe_real inv_e2 = inv_e * inv_e;
+	lobe_rough_dielectric_side s;
+	s.at = lobe_fresnel_interface_make(e);
+	s.inv_e = inv_e;
+	s.scale = transport == LOBE_TRANSPORT_RADIANCE ? inv_e2 : one;
+	s.step = e < one ? LOBE_R(0.5) * inv_e2 * inv_e : zero;
+	s.start = (e < one ? LOBE_R(-1.5) : -one) * inv_e;
+	return s;
+}
+
+/* With wo above. Each side is worked out for itself, which takes it out of loops over one material. t_o: lobe_ndf_t of o. */
 typedef struct {
 	lobe_vec3 o;
-	lobe_real e, inv_e, t_o, scale;
+	lobe_real t_o;
+	lobe_rough_dielectric_side side;
 } lobe_rough_dielectric_view;
 
 LOBE_FN lobe_rough_dielectric_view lobe_rough_dielectric_view_make(lobe_uint ndf, lobe_rough_dielectric p, lobe_vec3 wo)
 {
 	const int above = wo.z > LOBE_R(0.0);
+	const lobe_rough_dielectric_side a = lobe_rough_dielectric_side_make(p.eta, p.inv_eta, p.transport);
+	const lobe_rough_dielectric_side b = lobe_rough_dielectric_side_make(p.inv_eta, p.eta, p.transport);
 	lobe_rough_dielectric_view v;
 	v.o = lobe_vec3_make(wo.x, wo.y, lobe_abs(wo.z));
-	v.e = above ? p.eta : p.inv_eta;
-	v.inv_e = above ? p.inv_eta : p.eta;
 	v.t_o = lobe_rough_dielectric_t(ndf, p, wo);
-	v.scale = p.transport == LOBE_TRANSPORT_RADIANCE ? v.inv_e * v.inv_e : LOBE_R(1.0);
+	v.side.at = lobe_fresnel_interface_select(above, a.at, b.at);
+	v.side.inv_e = above ? a.inv_e : b.inv_e;
+	v.side.scale = above ? a.scale : b.scale;
+	v.side.step = above ? a.step : b.step;
+	v.side.start = above ? a.start : b.start;
 	return v;
 }
 
-/* The facet that takes o to i. c: o.m, at most 1, for Fresnel. density: its density dm/di D(m) o.m [1/sr], times
- * sigma(o). Both events are one formula in the unnormalised half vector H = o + e_r i, e_r = 1 for reflection:
+/* The facet that takes o to i, by the unnormalised half vector H = o + e_r i, e_r = 1 for reflection: at is its interface
+ * for normal H. density: its density dm/di D(m) o.m/sigma(o) [1/sr]. Both events are one formula,
  *	D(m) o.m |dm/di| = norm e_r^2 |o.H| |i.H| D1(H)
- * in which every power of |H| has cancelled (D1: lobe_ndf_density of the facet). facing > 0 where there is such a facet: both directions see its front, or
- * for a refraction one its front and one its back. (A number, as compilers make more of a minimum than of a chain of
- * truth values.) */
+ * in which every power of |H| has cancelled (D1: lobe_ndf_density of the facet). side, seen: > 0 where i is on its side, and
+ * where both directions see the front of the facet, or for a refraction one its front and one its back. (Numbers, as
+ * compilers make more of a minimum than of a chain of truth values.) */
 typedef struct {
-	lobe_real c, density, facing;
+	lobe_fresnel_interface at;
+	lobe_real density, side, seen;
 	int reflects;
 } lobe_rough_dielectric_facet;
 
 LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_make(lobe_uint ndf, lobe_rough_dielectric p,
-								     lobe_rough_dielectric_view v, lobe_vec3 i)
+								     lobe_rough_dielectric_view v, lobe_vec3 i,
+								     int reflects)
 {
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const int reflects = i.z > zero;
-	const lobe_real e_r = reflects ? one : v.e;
+	const lobe_real one = LOBE_R(1.0);
+	const lobe_real e_r = reflects ? one : v.side.at.eta;
 	const lobe_vec3 h = lobe_vec3_fma(e_r, i, v.o);
-	const lobe_real h2 = lobe_dot(h, h);
-	const lobe_real up = h.z < zero ? -one : one;
-	const lobe_real oh = reflects ? LOBE_R(0.5) * h2 : up * lobe_dot(v.o, h);
-	const lobe_real ih = reflects ? LOBE_R(0.5) * h2 : up * lobe_dot(i, h);
-	const lobe_facet_density d = lobe_ndf_density_over(ndf, lobe_stretch_facet(p.stretch, h), LOBE_R(1.0));
-	const lobe_real x = e_r * d.inv;
-	const lobe_real refracts = lobe_min(lobe_min(oh, -ih), -i.z);
-	const lobe_real refracts_to_density = p.delta == 0u ? refracts : zero;
-	const lobe_real sees = reflects ? i.z : refracts_to_density;
+	const lobe_vec3 squares = lobe_vec3_squares(h);
+	const lobe_real h2 = lobe_vec3_sum(squares);
+	const lobe_real half_h2 = LOBE_R(0.5) * h2;
+	/* The facet looks up. Of a refraction the half vector knows both cosines; of a reflection g^2 = (o.H)^2 + k h2. */
+	const lobe_real refracts_oh = lobe_times_sign(lobe_dot(v.o, h), h.z);
+	const lobe_real refracts_g = lobe_times_sign(v.side.at.eta * -lobe_dot(i, h), h.z);
+	const lobe_real reflects_g = lobe_fresnel_g(h2 * lobe_fma(LOBE_R(0.25), h2, v.side.at.k));
+	const lobe_real oh = reflects ? half_h2 : refracts_oh;
+	const lobe_real e2_ih = reflects ? half_h2 : v.side.at.eta * refracts_g;
+	const lobe_real g = reflects ? reflects_g : refracts_g;
+	const lobe_real two_sigma = v.o.z + v.t_o;
+	const lobe_facet_density d =
+		lobe_ndf_density_over(ndf, lobe_stretch_facet_squares(p.stretch, squares), two_sigma);
 	lobe_rough_dielectric_facet f;
 	f.reflects = reflects;
-	f.facing = lobe_min(v.o.z, sees);
-	f.c = lobe_min(oh / lobe_sqrt(h2), one);
-	f.density = p.stretch.norm * (oh * x) * (lobe_abs(ih) * x) * d.factor;
+	f.at = lobe_fresnel_interface_between(v.side.at, oh, g, h2);
+	f.side = reflects ? i.z : -i.z;
+	f.seen = lobe_min(oh, e2_ih);
+	f.density = ((p.stretch.norm + p.stretch.norm) * two_sigma) * (oh * d.inv) * (e2_ih * d.inv) * d.factor;
 	return f;
 }
 
-/* F or 1 - F, by the event. */
-LOBE_FN lobe_real lobe_rough_dielectric_prob(lobe_rough_dielectric_facet m, lobe_fresnel fr)
+/* The facet that eval and pdf see; there is none for a delta event. */
+LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_of(lobe_uint ndf, lobe_rough_dielectric p,
+								   lobe_rough_dielectric_view v, lobe_vec3 i)
 {
-	return m.reflects ? fr.reflectance : fr.transmittance;
+	const int reflects = i.z > LOBE_R(0.0);
+	lobe_rough_dielectric_facet f = lobe_rough_dielectric_facet_make(ndf, p, v, i, reflects);
+	f.seen = (reflects | (p.delta == 0u)) ? f.seen : LOBE_R(0.0);
+	return f;
+}
+
+/* x where m is a facet and x a finite number, else 0. */
+LOBE_FN lobe_real lobe_rough_dielectric_keep(lobe_rough_dielectric_view v, lobe_rough_dielectric_facet m, lobe_real x)
+{
+	const int keep = (lobe_min(lobe_min(v.o.z, m.side), m.seen) > LOBE_R(0.0)) & (lobe_abs(x) <= LOBE_REAL_MAX);
+	return keep ? x : LOBE_R(0.0);
+}
+
+/* F or 1 - F, by the event. */
+LOBE_FN lobe_real lobe_rough_dielectric_prob(lobe_rough_dielectric_facet m)
+{
+	return lobe_fresnel_share(m.at, m.reflects);
 }
 
 /* i as v sees it. */
 LOBE_FN lobe_vec3 lobe_rough_dielectric_flip(lobe_vec3 wo, lobe_vec3 wi)
 {
-	return lobe_vec3_make(wi.x, wi.y, wo.z > LOBE_R(0.0) ? wi.z : -wi.z);
+	return lobe_vec3_make(wi.x, wi.y, lobe_times_sign(wi.z, wo.z));
 }
 
-/* G2/z_o: height-correlated for a reflection, G1(o) G1(i) for a refraction, by one division. */
-LOBE_FN lobe_real lobe_rough_dielectric_g2_over_cos(lobe_uint ndf, lobe_rough_dielectric p,
-						    lobe_rough_dielectric_view v, lobe_vec3 i, int reflects)
+/* The weight of a sample whose event has probability F or 1 - F: G2/G1(o), height-correlated for a reflection and G1(i) for
+ * a refraction, with what that carries; by one division. */
+LOBE_FN lobe_real lobe_rough_dielectric_weight(lobe_uint ndf, lobe_rough_dielectric p, lobe_rough_dielectric_view v,
+					       lobe_vec3 i, int reflects)
 {
 	const lobe_real z_i = lobe_abs(i.z);
 	const lobe_real t_i = lobe_rough_dielectric_t(ndf, p, i);
-	const lobe_real num = reflects ? z_i + z_i : LOBE_R(4.0) * z_i;
-	const lobe_real den = reflects ? lobe_fma(z_i, v.t_o, v.o.z * t_i) : (z_i + t_i) * (v.o.z + v.t_o);
-	return num / den;
+	const lobe_real num = reflects ? v.o.z + v.t_o : v.side.scale + v.side.scale;
+	const lobe_real den = reflects ? lobe_smith_sum(v.o.z, v.t_o, z_i, t_i) : z_i + t_i;
+	return z_i * num / den;
 }
 
-/* x, which is >= 0 where m is a facet, or 0 where it is none or x is no finite number. */
-LOBE_FN lobe_real lobe_rough_dielectric_keep(lobe_rough_dielectric_facet m, lobe_real x)
-{
-	const lobe_real there = m.facing > LOBE_R(0.0) ? x : LOBE_R(0.0);
-	return lobe_abs(there) <= LOBE_REAL_MAX ? there : LOBE_R(0.0);
-}
-
-/* f |cos theta_i| [1/sr] of a facet of which the share prob is reflected or refracted. */
+/* f |cos theta_i| [1/sr] of a facet of which the share prob is reflected or refracted: density times weight of a sample. */
 LOBE_FN lobe_real lobe_rough_dielectric_eval_at(lobe_rough_dielectric_view v, lobe_rough_dielectric_facet m,
-						lobe_real prob, lobe_real g2_over_cos)
+						lobe_real prob, lobe_real weight)
 {
-	const lobe_real scale = m.reflects ? LOBE_R(1.0) : v.scale;
-	return lobe_rough_dielectric_keep(m, prob * scale * m.density * g2_over_cos);
+	return lobe_rough_dielectric_keep(v, m, prob * m.density * weight);
 }
 
 /* f |cos theta_i| [1/sr] */
@@ -151,10 +194,9 @@ LOBE_FN lobe_rgb lobe_rough_dielectric_eval(lobe_uint ndf, lobe_rough_dielectric
 {
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p, wo);
 	const lobe_vec3 i = lobe_rough_dielectric_flip(wo, wi);
-	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p, v, i);
-	const lobe_real prob = lobe_rough_dielectric_prob(m, lobe_fresnel_dielectric(m.c, v.e));
-	const lobe_real g = lobe_rough_dielectric_g2_over_cos(ndf, p, v, i, m.reflects);
-	const lobe_real kept = lobe_rough_dielectric_eval_at(v, m, prob, g);
+	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_of(ndf, p, v, i);
+	const lobe_real weight = lobe_rough_dielectric_weight(ndf, p, v, i, m.reflects);
+	const lobe_real kept = lobe_rough_dielectric_eval_at(v, m, lobe_rough_dielectric_prob(m), weight);
 	return lobe_rgb_make(kept, kept, kept);
 }
 
@@ -162,9 +204,7 @@ LOBE_FN lobe_rgb lobe_rough_dielectric_eval(lobe_uint ndf, lobe_rough_dielectric
 LOBE_FN lobe_real lobe_rough_dielectric_pdf_at(lobe_rough_dielectric_view v, lobe_rough_dielectric_facet m,
 					       lobe_real prob)
 {
-	const lobe_real two_sigma = v.o.z + v.t_o;
-	const lobe_real pdf = prob * (m.density + m.density) / two_sigma;
-	return lobe_rough_dielectric_keep(m, pdf);
+	return lobe_rough_dielectric_keep(v, m, prob * m.density);
 }
 
 /* [1/sr] */
@@ -172,15 +212,16 @@ LOBE_FN lobe_real lobe_rough_dielectric_pdf(lobe_uint ndf, lobe_rough_dielectric
 {
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p, wo);
 	const lobe_rough_dielectric_facet m =
-		lobe_rough_dielectric_facet_make(ndf, p, v, lobe_rough_dielectric_flip(wo, wi));
-	return lobe_rough_dielectric_pdf_at(v, m, lobe_rough_dielectric_prob(m, lobe_fresnel_dielectric(m.c, v.e)));
+		lobe_rough_dielectric_facet_of(ndf, p, v, lobe_rough_dielectric_flip(wo, wi));
+	return lobe_rough_dielectric_pdf_at(v, m, lobe_rough_dielectric_prob(m));
 }
 
-/* The facet that a sample leaves by: a visible one, its cosine, and what it does to light. */
+/* The facet that a sample leaves by: a visible one, of any length. c: o.m. */
 typedef struct {
 	lobe_vec3 m;
 	lobe_real c;
-	lobe_fresnel fr;
+	lobe_fresnel_interface at;
+	lobe_fresnel_amplitudes r;
 } lobe_rough_dielectric_choice;
 
 LOBE_FN lobe_rough_dielectric_choice lobe_rough_dielectric_choose(lobe_uint ndf, lobe_rough_dielectric p,
@@ -189,45 +230,49 @@ LOBE_FN lobe_rough_dielectric_choice lobe_rough_dielectric_choose(lobe_uint ndf,
 	const lobe_vec3 facet =
 		lobe_ndf_visible_above(ndf, lobe_stretch_direction(p.stretch, v.o), v.t_o, lobe_vec2_make(u.x, u.y));
 	lobe_rough_dielectric_choice s;
-	s.m = lobe_normalize(lobe_stretch_normal(p.stretch, facet));
-	s.c = lobe_min(lobe_dot(v.o, s.m), LOBE_R(1.0));
-	s.fr = lobe_fresnel_dielectric(s.c, v.e);
+	s.m = lobe_stretch_normal(p.stretch, facet);
+	s.c = lobe_dot(v.o, s.m);
+	/* Not m2 - c^2: towards the thinner side it is the sine that decides, and it may be small. */
+	const lobe_vec3 across = lobe_rough_cross(v.o, s.m);
+	s.at = lobe_fresnel_interface_at(v.side.at, s.c, lobe_dot(across, across));
+	s.r = lobe_fresnel_amplitudes_make(s.at);
 	return s;
 }
 
-/* Where the light goes, with wo above. right_side > 0 where that is a sample. */
-typedef struct {
-	lobe_vec3 i;
-	lobe_real right_side;
-} lobe_rough_dielectric_exit;
-
-LOBE_FN lobe_rough_dielectric_exit lobe_rough_dielectric_leave(lobe_rough_dielectric_view v,
-							       lobe_rough_dielectric_choice s, int reflects)
+/* Where the light goes, with wo above: 2 (o.m) m - o or refracted. (The length of what is refracted is worked out before it
+ * is known whether it is: a sample is one long chain of operations that wait for each other.) */
+LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric_view v, lobe_rough_dielectric_choice s,
+					      int reflects)
 {
-	const lobe_real one = LOBE_R(1.0);
-	const lobe_vec3 mirrored = lobe_reflect(v.o, s.m, s.c);
-	const lobe_vec3 bent = lobe_refract(v.o, s.m, v.inv_e, s.fr);
-	/* Towards the thinner side the rounding of c grows by 1/e^2; else bent is unit, and at e = 1 it is -o. */
-	const lobe_real inv_length = one / lobe_sqrt(lobe_dot(bent, bent));
-	const lobe_real to_unit = v.e < one ? inv_length : one;
-	const lobe_vec3 refracted = lobe_vec3_scale(bent, to_unit);
-	lobe_rough_dielectric_exit x;
-	x.i = lobe_vec3_make(reflects ? mirrored.x : refracted.x, reflects ? mirrored.y : refracted.y,
-			     reflects ? mirrored.z : refracted.z);
-	/* Rounding can turn a facet away from wo where the cap's rim meets its opposite: c <= 0. */
-	const lobe_real outwards = reflects ? x.i.z : -x.i.z;
-	x.right_side = lobe_min(lobe_min(v.o.z, s.c), outwards);
-	return x;
+	const lobe_vec3 bent = lobe_vec3_fma(s.r.bend, s.m, v.o);
+	const lobe_real refracts_scale = lobe_fma(v.side.step, lobe_dot(bent, bent), v.side.start);
+	const lobe_real of_m = reflects ? (s.c + s.c) / -s.at.m2 : s.r.bend;
+	const lobe_real scale = reflects ? LOBE_R(-1.0) : refracts_scale;
+	return lobe_vec3_scale(lobe_vec3_fma(of_m, s.m, v.o), scale);
 }
 
-/* The weight of a sample whose event has probability F or 1 - F. */
-LOBE_FN lobe_real lobe_rough_dielectric_weight(lobe_uint ndf, lobe_rough_dielectric p, lobe_rough_dielectric_view v,
-					       lobe_vec3 i, int reflects)
+/* The facet of a sample as pdf finds it again. There is none for a delta event, which keeps the sampled one's interface, with
+ * the density that it is given. */
+LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_again(lobe_uint ndf, lobe_rough_dielectric p,
+								      lobe_rough_dielectric_view v,
+								      lobe_rough_dielectric_choice s, lobe_vec3 i,
+								      int reflects, lobe_real delta_density)
 {
-	const lobe_real two_sigma = v.o.z + v.t_o;
-	const lobe_real masked = LOBE_R(0.5) * two_sigma * lobe_rough_dielectric_g2_over_cos(ndf, p, v, i, reflects);
-	const lobe_real refracts_weight = v.scale * (p.delta != 0u ? LOBE_R(1.0) : masked);
-	return lobe_finite_or_zero(reflects ? masked : refracts_weight);
+	const int straight = !reflects & (p.delta != 0u);
+	lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p, v, i, reflects);
+	m.at = lobe_fresnel_interface_select(straight, s.at, m.at);
+	m.density = straight ? delta_density : m.density;
+	m.seen = straight ? s.c : m.seen;
+	return m;
+}
+
+/* The weight of that sample. A delta event is not masked. */
+LOBE_FN lobe_real lobe_rough_dielectric_sample_weight(lobe_uint ndf, lobe_rough_dielectric p,
+						      lobe_rough_dielectric_view v, lobe_vec3 i, int reflects)
+{
+	const int straight = !reflects & (p.delta != 0u);
+	const lobe_real weight = lobe_rough_dielectric_weight(ndf, p, v, i, reflects);
+	return straight ? v.side.scale : weight <= LOBE_REAL_MAX ? weight : LOBE_R(0.0);
 }
 
 LOBE_FN lobe_uint lobe_rough_dielectric_event(lobe_rough_dielectric p, int reflects)
@@ -243,14 +288,17 @@ LOBE_FN lobe_sample lobe_rough_dielectric_sample(lobe_uint ndf, lobe_rough_diele
 {
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p, wo);
 	const lobe_rough_dielectric_choice s = lobe_rough_dielectric_choose(ndf, p, v, u);
-	const int reflects = u.z < s.fr.reflectance;
-	const lobe_rough_dielectric_exit x = lobe_rough_dielectric_leave(v, s, reflects);
-	const lobe_vec3 wi = lobe_rough_dielectric_flip(wo, x.i);
-	const lobe_real density = lobe_rough_dielectric_pdf(ndf, p, wo, wi);
-	const lobe_real refracts_pdf = p.delta != 0u ? s.fr.transmittance : density;
-	const lobe_real pdf = reflects ? density : refracts_pdf;
-	const lobe_real w = lobe_rough_dielectric_weight(ndf, p, v, x.i, reflects);
-	return lobe_sample_select(lobe_min(x.right_side, pdf) > LOBE_R(0.0), wi, lobe_rgb_make(w, w, w), pdf,
+	const int reflects = u.z < lobe_fresnel_reflectance(s.at, s.r);
+	const lobe_vec3 i = lobe_rough_dielectric_leave(v, s, reflects);
+	/* Without an interface the probability to pass is 1, not 1 - F with its roundings. */
+	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
+	const lobe_real surely = p.eta == one ? one : zero, perhaps = p.eta == one ? zero : one;
+	const lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_again(ndf, p, v, s, i, reflects, perhaps);
+	const lobe_real pdf = lobe_fma(lobe_rough_dielectric_prob(m), m.density, surely);
+	const lobe_real w = lobe_rough_dielectric_sample_weight(ndf, p, v, i, reflects);
+	const lobe_real there = lobe_min(lobe_min(lobe_min(v.o.z, m.side), m.seen), pdf);
+	const int ok = (there > zero) & (pdf <= LOBE_REAL_MAX);
+	return lobe_sample_select(ok, lobe_rough_dielectric_flip(wo, i), lobe_rgb_make(w, w, w), pdf,
 				  lobe_rough_dielectric_event(p, reflects));
 }
 

@@ -32,10 +32,16 @@ LOBE_FN lobe_facet_density lobe_facet_density_none(void)
 	return d;
 }
 
+/* z_i t_o + z_o t_i, the denominator of G2. */
+LOBE_FN lobe_real lobe_smith_sum(lobe_real z_o, lobe_real t_o, lobe_real z_i, lobe_real t_i)
+{
+	return lobe_fma(z_i, t_o, z_o * t_i);
+}
+
 /* G2/z_o, both directions above the surface: 2 z_i/(z_i t_o + z_o t_i). Heitz 2014, eq. 99. */
 LOBE_FN lobe_real lobe_smith_g2_over_cos(lobe_real z_o, lobe_real t_o, lobe_real z_i, lobe_real t_i)
 {
-	return (z_i + z_i) / lobe_fma(z_i, t_o, z_o * t_i);
+	return (z_i + z_i) / lobe_smith_sum(z_o, t_o, z_i, t_i);
 }
 
 #endif

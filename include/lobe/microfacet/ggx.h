@@ -10,16 +10,19 @@
 
 LOBE_FN lobe_real lobe_ggx_t(lobe_vec3 v) { return lobe_sqrt(lobe_fma(v.x, v.x, lobe_fma(v.y, v.y, v.z * v.z))); }
 
-/* pi D = 1/|h|^4, inv over s. Infinite for h = 0, where there is no normal. */
-LOBE_FN lobe_facet_density lobe_ggx_density_over(lobe_vec3 h, lobe_real s)
+/* pi D = 1/|h|^4, inv over s. h2: the squares of h. Infinite for h = 0, where there is no normal. */
+LOBE_FN lobe_facet_density lobe_ggx_density_over(lobe_vec3 h2, lobe_real s)
 {
 	lobe_facet_density d;
-	d.inv = LOBE_R(1.0) / (lobe_fma(h.x, h.x, lobe_fma(h.y, h.y, h.z * h.z)) * s);
+	d.inv = LOBE_R(1.0) / (lobe_vec3_sum(h2) * s);
 	d.factor = LOBE_R(1.0);
 	return d;
 }
 
-LOBE_FN lobe_facet_density lobe_ggx_density(lobe_vec3 h) { return lobe_ggx_density_over(h, LOBE_R(1.0)); }
+LOBE_FN lobe_facet_density lobe_ggx_density(lobe_vec3 h)
+{
+	return lobe_ggx_density_over(lobe_vec3_squares(h), LOBE_R(1.0));
+}
 
 /* (t - |z|)/2 as (x^2 + y^2)/(2 (t + |z|)). */
 LOBE_FN lobe_real lobe_ggx_hidden(lobe_vec3 v)

@@ -16,16 +16,16 @@
 #include "beckmann.h"
 #endif
 
-/* lobe_X_density(h) of facet.h with inv over s, which shares its division. */
-LOBE_FN lobe_facet_density lobe_ndf_density_over(lobe_uint ndf, lobe_vec3 h, lobe_real s)
+/* lobe_X_density(h) of facet.h with inv over s, which shares its division; from the squares of h. */
+LOBE_FN lobe_facet_density lobe_ndf_density_over(lobe_uint ndf, lobe_vec3 h2, lobe_real s)
 {
 #if LOBE_HAS_NDF_BECKMANN
 	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
-		return lobe_beckmann_density_over(h, s);
+		return lobe_beckmann_density_over(h2, s);
 #endif
 #if LOBE_HAS_NDF_GGX
 	(void)ndf;
-	return lobe_ggx_density_over(h, s);
+	return lobe_ggx_density_over(h2, s);
 #endif
 }
 

@@ -17,11 +17,11 @@
 #include "ndf.h"
 #include "stretch.h"
 
-/* Both directions above the surface, every parameter a number and the density x too; x is then >= 0. */
-LOBE_FN int lobe_reflection_ok(lobe_real params, lobe_vec3 wo, lobe_vec3 wi, lobe_real x)
+/* Both directions above the surface and every parameter a number. */
+LOBE_FN int lobe_reflection_ok(lobe_real params, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const int numbers = params - params == LOBE_R(0.0);
-	return numbers & (lobe_min(wo.z, wi.z) > LOBE_R(0.0)) & (x <= LOBE_REAL_MAX);
+	return numbers & (lobe_min(wo.z, wi.z) > LOBE_R(0.0));
 }
 
 LOBE_FN lobe_real lobe_reflection_t(lobe_uint ndf, lobe_stretch s, lobe_vec3 w)
@@ -29,23 +29,28 @@ LOBE_FN lobe_real lobe_reflection_t(lobe_uint ndf, lobe_stretch s, lobe_vec3 w)
 	return lobe_ndf_t(ndf, lobe_stretch_direction(s, w));
 }
 
-/* D(h)/(4 sigma(wo)) [1/sr], two_sigma = 2 sigma(wo). NaN for H = 0. */
-LOBE_FN lobe_real lobe_reflection_density(lobe_uint ndf, lobe_stretch s, lobe_vec3 h, lobe_real h2, lobe_real two_sigma)
+/* The squares of H = wo + wi. */
+LOBE_FN lobe_vec3 lobe_reflection_half(lobe_vec3 wo, lobe_vec3 wi) { return lobe_vec3_squares(lobe_vec3_add(wo, wi)); }
+
+/* D(h)/(4 sigma(wo)) [1/sr]; h: those squares, two_sigma = 2 sigma(wo). NaN for H = 0. */
+LOBE_FN lobe_real lobe_reflection_density(lobe_uint ndf, lobe_stretch s, lobe_vec3 h, lobe_real two_sigma)
 {
-	const lobe_facet_density d = lobe_ndf_density_over(ndf, lobe_stretch_facet(s, h), two_sigma);
-	const lobe_real x = h2 * d.inv;
-	return s.norm * x * x * (LOBE_R(0.5) * two_sigma) * d.factor;
+	const lobe_facet_density d = lobe_ndf_density_over(ndf, lobe_stretch_facet_squares(s, h), two_sigma);
+	const lobe_real x = lobe_vec3_sum(h) * d.inv;
+	return (LOBE_R(0.5) * s.norm) * two_sigma * (x * x) * d.factor;
 }
 
-/* G2/G1(wo) */
-LOBE_FN lobe_real lobe_reflection_weight(lobe_uint ndf, lobe_stretch s, lobe_real z_o, lobe_real t_o, lobe_vec3 wi)
+/* x G2/G1(wo) */
+LOBE_FN lobe_real lobe_reflection_weight(lobe_uint ndf, lobe_stretch s, lobe_real z_o, lobe_real t_o, lobe_vec3 wi,
+					 lobe_real x)
 {
-	return LOBE_R(0.5) * (z_o + t_o) * lobe_smith_g2_over_cos(z_o, t_o, wi.z, lobe_reflection_t(ndf, s, wi));
+	return x * (wi.z * (z_o + t_o)) / lobe_smith_sum(z_o, t_o, wi.z, lobe_reflection_t(ndf, s, wi));
 }
 
 /* f |cos theta_i|/F [1/sr], and |H|^2 for Fresnel. ok: else the lobe is 0. */
 typedef struct {
-	lobe_real value, h2;
+	lobe_real value;
+	lobe_real h2;
 	int ok;
 } lobe_reflection_eval;
 
@@ -53,22 +58,22 @@ typedef struct {
 LOBE_FN lobe_reflection_eval lobe_reflection_eval_at(lobe_uint ndf, lobe_stretch s, lobe_real params, lobe_vec3 wo,
 						     lobe_vec3 wi)
 {
-	const lobe_vec3 h = lobe_vec3_add(wo, wi);
+	const lobe_vec3 h = lobe_reflection_half(wo, wi);
 	const lobe_real t_o = lobe_reflection_t(ndf, s, wo);
 	lobe_reflection_eval r;
-	r.h2 = lobe_dot(h, h);
-	r.value = lobe_reflection_density(ndf, s, h, r.h2, wo.z + t_o) * lobe_reflection_weight(ndf, s, wo.z, t_o, wi);
-	r.ok = lobe_reflection_ok(params, wo, wi, r.value);
+	r.h2 = lobe_vec3_sum(h);
+	const lobe_real density = lobe_reflection_density(ndf, s, h, wo.z + t_o);
+	r.value = lobe_reflection_weight(ndf, s, wo.z, t_o, wi, density);
+	r.ok = lobe_reflection_ok(params, wo, wi);
 	return r;
 }
 
 /* [1/sr] */
 LOBE_FN lobe_real lobe_reflection_pdf(lobe_uint ndf, lobe_stretch s, lobe_real params, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_vec3 h = lobe_vec3_add(wo, wi);
 	const lobe_real two_sigma = wo.z + lobe_reflection_t(ndf, s, wo);
-	const lobe_real pdf = lobe_reflection_density(ndf, s, h, lobe_dot(h, h), two_sigma);
-	const int ok = lobe_reflection_ok(params, wo, wi, pdf);
+	const lobe_real pdf = lobe_reflection_density(ndf, s, lobe_reflection_half(wo, wi), two_sigma);
+	const int ok = lobe_reflection_ok(params, wo, wi) & (pdf <= LOBE_REAL_MAX);
 	return ok ? pdf : LOBE_R(0.0);
 }
 
@@ -88,22 +93,31 @@ LOBE_FN lobe_reflection_sample lobe_reflection_sample_at(lobe_uint ndf, lobe_str
 	lobe_reflection_sample r;
 	r.wi = lobe_reflect(wo, m, lobe_dot(wo, m) / lobe_dot(m, m));
 	r.pdf = lobe_reflection_pdf(ndf, s, params, wo, r.wi);
-	const lobe_vec3 h = lobe_vec3_add(wo, r.wi);
-	r.h2 = lobe_dot(h, h);
-	r.weight = lobe_finite_or_zero(lobe_reflection_weight(ndf, s, wo.z, t_o, r.wi));
+	r.h2 = lobe_vec3_sum(lobe_reflection_half(wo, r.wi));
+	r.weight = lobe_finite_or_zero(lobe_reflection_weight(ndf, s, wo.z, t_o, r.wi, LOBE_R(1.0)));
 	return r;
 }
 
-/* The lobe's own results, given its Fresnel reflectance f. */
+/* The lobe's own results, given what its Fresnel term makes of value or weight. */
+LOBE_FN lobe_rgb lobe_reflection_eval_result(lobe_reflection_eval r, lobe_rgb f)
+{
+	return lobe_rgb_select(r.ok & (r.value <= LOBE_REAL_MAX), f);
+}
+
+LOBE_FN lobe_sample lobe_reflection_sample_result(lobe_reflection_sample r, lobe_rgb weight)
+{
+	return lobe_sample_select(r.pdf > LOBE_R(0.0), r.wi, weight, r.pdf, LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY);
+}
+
+/* Or given its reflectance f. */
 LOBE_FN lobe_rgb lobe_reflection_tint(lobe_reflection_eval r, lobe_rgb f)
 {
-	return lobe_rgb_select(r.ok, lobe_rgb_scale(f, r.value));
+	return lobe_reflection_eval_result(r, lobe_rgb_scale(f, r.value));
 }
 
 LOBE_FN lobe_sample lobe_reflection_tint_sample(lobe_reflection_sample r, lobe_rgb f)
 {
-	return lobe_sample_select(r.pdf > LOBE_R(0.0), r.wi, lobe_rgb_scale(f, r.weight), r.pdf,
-				  LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY);
+	return lobe_reflection_sample_result(r, lobe_rgb_scale(f, r.weight));
 }
 
 #endif

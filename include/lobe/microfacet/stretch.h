@@ -49,6 +49,12 @@ LOBE_FN lobe_vec3 lobe_stretch_facet(lobe_stretch s, lobe_vec3 h)
 	return lobe_vec3_make(s.inv_alpha_x * h.x, s.inv_alpha_y * h.y, h.z);
 }
 
+/* The same of squares of components, of which lengths are sums. */
+LOBE_FN lobe_vec3 lobe_stretch_facet_squares(lobe_stretch s, lobe_vec3 h2)
+{
+	return lobe_vec3_make(s.inv_alpha_x * s.inv_alpha_x * h2.x, s.inv_alpha_y * s.inv_alpha_y * h2.y, h2.z);
+}
+
 /* The normal that m, one of the surface of width 1, turns into. */
 LOBE_FN lobe_vec3 lobe_stretch_normal(lobe_stretch s, lobe_vec3 m)
 {
