@@ -94,6 +94,11 @@ static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 	return LOBE_OK;
 }
 
+const lobe_native_split *lobe_native_split_of(const lobe_device *device)
+{
+	return ((const native_device *)device)->split;
+}
+
 /* That the program has the loops of every lobe in the scene. */
 static lobe_status native_scene_create(lobe_scene *scene)
 {

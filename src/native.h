@@ -62,6 +62,9 @@ int lobe_native_whole(const lobe_scene *scene, const lobe_job *job);
 /* A lobe_pool_work; context: a lobe_native_job. */
 void lobe_native_chunk(void *context, size_t chunk, size_t thread);
 
+/* How a native device sorts, for those who time it. (native.c) */
+const lobe_native_split *lobe_native_split_of(const lobe_device *device);
+
 lobe_status lobe_native_scene_create(lobe_scene *scene);
 void lobe_native_scene_destroy(lobe_scene *scene);
 
