@@ -19,8 +19,8 @@ typedef struct {
 	size_t count;
 } bench_mixed_results;
 
-/* Prints a row for each scene, verb and size, and writes them to csv. n: elements of the larger batches; the smaller stay
- * in the caches. 0 after a failure, which it reports. */
+/* Prints a row for each scene, verb and size, and writes them to csv. n: elements of the larger batches; the smaller
+ * stay in the caches. 0 after a failure, which it reports. */
 int bench_mixed(FILE *csv, const bench_device *devices, int count, size_t n, size_t runs, bench_mixed_results *out);
 
 #endif

@@ -1,5 +1,5 @@
-/* test_mixed.c - batches of several lobes on the native device: every form of sorting and moving elements (native_split.h)
- * against the plain one, and whole batches of every awkward size against their elements shaded alone. */
+/* test_mixed.c - batches of several lobes on the native device: every form of sorting and moving elements
+ * (native_split.h) against the plain one, and batches of every awkward size against their elements shaded alone. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
 #include <string.h>
@@ -177,7 +177,7 @@ static void test_every_form_moves_alike(void)
 
 enum { MATERIALS = 40, MOST = 4097 };
 
-/* Lobe and u, or wi, of each element by itself, and what comes of it. */
+/* An element's inputs, second being wi or u, and what comes of them. */
 typedef struct {
 	float wo[3], second[3], f[3], pdf, wi[3], weight[3], sample_pdf;
 	uint32_t material, event, guard;
