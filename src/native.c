@@ -70,12 +70,15 @@ static size_t chunk_size(const native_device *device, size_t count, double cost)
  * processors by more, so a number of elements would not do. A thread that was put aside in between counts little. */
 static void learn(double *cost, double took) { *cost = *cost > took ? took : *cost + (took - *cost) / 8; }
 
-/* Whether no cache would keep what a batch writes. */
+/* Whether no cache would keep what a batch writes. Results for structs go through the thread's own memory, which does. */
 static int streams(const lobe_job *job)
 {
 	size_t outputs = 0;
-	for (int k = 0; k < LOBE_OUT_COUNT; k++)
+	for (int k = 0; k < LOBE_OUT_COUNT; k++) {
+		if (job->out[k] && job->out_stride[k] != 4)
+			return 0;
 		outputs += job->out[k] != NULL;
+	}
 	return job->count >= LOBE_NATIVE_STREAM / 4 / outputs;
 }
 
