@@ -192,7 +192,8 @@ static void put_row(FILE *csv, const race *r, int verb, size_t n, int sorted, be
 	printf("\n");
 	fputs("\n", csv);
 	if (sorted && r->mix == mixes && out->count < sizeof out->result / sizeof *out->result)
-		out->result[out->count++] = (bench_mixed_result){verb, n, 100.0 * mean, 100.0 * sorting_time / mean};
+		out->result[out->count++] =
+			(bench_mixed_result){verb, n, 100.0 * mean, 100.0 * (sorting_time + moving_time) / mean};
 }
 
 static int run_mix(FILE *csv, race *r, const bench_arrays *a, size_t n, size_t runs, bench_mixed_results *out)

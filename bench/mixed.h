@@ -11,7 +11,7 @@ typedef struct {
 	int verb;
 	size_t n;
 	double share;   /* of the weighted mean of its lobes alone */
-	double sorting; /* of the time of that mean */
+	double sorting; /* of the time of that mean: finding places and moving */
 } bench_mixed_result;
 
 typedef struct {

@@ -66,7 +66,7 @@ static void put_mixed(int *lines, const bench_mixed_results *mixed)
 		snprintf(lobe, sizeof lobe, "five, %zu", r->n);
 		const subject s = {lobe, "native:1", r->verb};
 		put(lines, s, "of mean", r->share, least_mixed, "%", "");
-		put(lines, s, "sorting", r->sorting, most_sorting, "%", "<");
+		put(lines, s, "sorting, moving", r->sorting, most_sorting, "%", "<");
 	}
 }
 
