@@ -29,6 +29,14 @@ ISA_baseline :=
 ISA_avx2 := -mavx2 -mfma
 ISA_avx512 := -mavx2 -mfma -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512
 
+# Sorting alone has one more: bytes are permuted like words.
+SPLIT_ISAS := $(ISAS)
+ISA_vbmi2 := $(ISA_avx512) -mpopcnt -mavx512vbmi2
+ifneq (,$(and $(filter avx512,$(ISAS)),$(shell $(CC) $(ISA_vbmi2) -E -x c /dev/null >/dev/null 2>&1 && echo y)))
+SPLIT_ISAS += vbmi2
+LIB_CFLAGS += -DLOBE_VBMI2
+endif
+
 # For gcc: jump threading would copy divisions into both arms of a select, and the loops are long chains that gain from
 # scheduling before registers are given out. The sample loops are unrolled twice (rows.c): -fweb tells the two apart.
 ROW_OPT ?= -O3
@@ -54,8 +62,8 @@ OPENCL_SOURCES := $(wildcard src/opencl*.c)
 NONE_SOURCES := src/native_none.c src/opencl_none.c
 LOOP_SOURCES := src/rows.c src/native_split.c src/linked.c
 SOURCES := $(filter-out $(NATIVE_SOURCES) $(OPENCL_SOURCES) $(LOOP_SOURCES) $(NONE_SOURCES),$(wildcard src/*.c))
-ROW_OBJECTS := $(foreach i,$(ISAS),$(ROW_DIR)/native_split_$(i).o $(foreach l,$(LOBES),$(ROW_DIR)/rows_$(i)_$(l).o)) \
-	$(foreach l,$(LOBES),$(ROW_DIR)/linked_$(l).o)
+ROW_OBJECTS := $(foreach i,$(SPLIT_ISAS),$(ROW_DIR)/native_split_$(i).o) \
+	$(foreach i,$(ISAS),$(foreach l,$(LOBES),$(ROW_DIR)/rows_$(i)_$(l).o)) $(foreach l,$(LOBES),$(ROW_DIR)/linked_$(l).o)
 ifeq ($(LOBE_NATIVE),0)
 SOURCES += src/native_none.c
 else
@@ -96,7 +104,7 @@ $(ROW_DIR)/native_split_$(1).o: src/native_split.c $(HEADERS) | $(B)/obj
 	@echo "  cc    $$@"
 	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/native_split.c -o $$@
 endef
-$(foreach i,$(ISAS),$(eval $(call SPLIT_RULE,$(i))))
+$(foreach i,$(SPLIT_ISAS),$(eval $(call SPLIT_RULE,$(i))))
 
 define LINKED_RULE
 $(ROW_DIR)/linked_$(1).o: src/linked.c $(HEADERS) | $(B)/obj

@@ -1,4 +1,4 @@
-/* layout.c - mixed lobes, and arrays of structs. */
+/* layout.c - arrays of structs, behind mixed lobes. */
 #include "layout.h"
 
 #include <stdio.h>
@@ -8,69 +8,8 @@
 #include "machine.h"
 #include "race.h"
 
-enum { RACERS_MAX = BENCH_LOBES + 2 };
-
 static const int verbs[] = {BENCH_EVAL_PDF, BENCH_SAMPLE};
 enum { VERBS = sizeof verbs / sizeof *verbs };
-
-/* --- mixed lobes -------------------------------------------------------------------------------------------------- */
-
-/* A scene of so many materials, lobe after lobe. */
-static lobe_status create_mixed(lobe_scene **out, lobe_device *device, size_t materials)
-{
-	lobe_bsdf *const m = malloc(materials * sizeof *m);
-	if (!m)
-		return LOBE_ERROR_MEMORY;
-	for (size_t i = 0; i < materials; i++)
-		m[i] = bench_lobe_material((int)(i % BENCH_LOBES));
-	const lobe_status status = lobe_scene_create(out, device, m, materials);
-	free(m);
-	return status;
-}
-
-/* The mean of the times of each lobe alone over the time of the mixed batch, in percent. racer[i]: compared with the
- * mixed one. */
-static double share(const bench_racer *alone)
-{
-	double time = 0.0;
-	for (int i = 0; i < BENCH_LOBES; i++)
-		time += 1.0 / alone[i].ratio.median;
-	return 100.0 * time / BENCH_LOBES;
-}
-
-/* material: a random number for each element. */
-static int mixed_rows(FILE *csv, const bench_device *d, bench_arrays *a, uint32_t *material, size_t n, size_t materials,
-		      size_t runs)
-{
-	bench_shading shading[RACERS_MAX];
-	bench_racer racer[RACERS_MAX];
-	int ok = create_mixed(&shading[0].scene, d->device, materials) == LOBE_OK, scenes = ok;
-	for (int i = 0; ok && i < BENCH_LOBES; i++, scenes += ok)
-		ok = bench_scene_create(&shading[1 + i].scene, d->device, i) == LOBE_OK;
-	for (size_t i = 0; i < n; i++) {
-		/* Knuth's multiplicative hash of the place. */
-		const uint32_t random = (uint32_t)i * 2654435761u;
-		material[i] = (uint32_t)((uint64_t)(random ^ random >> 15) * materials >> 32);
-	}
-	for (int v = 0; ok && v < VERBS; v++) {
-		for (int i = 0; i <= BENCH_LOBES; i++) {
-			shading[i].verb = verbs[v];
-			shading[i].batch = bench_batch(a, verbs[v], n);
-			racer[i] = bench_shading_racer(&shading[i], 0);
-		}
-		shading[0].batch.material = material;
-		ok = bench_race(racer, 1 + BENCH_LOBES, runs);
-		if (!ok)
-			break;
-		printf("%-34s %-9s %-10s %9zu %9.1f %7.1f %%\n", "mixed, against its lobes alone",
-		       bench_verb_name(verbs[v]), d->label, materials, racer[0].rate.median, share(racer + 1));
-		fprintf(csv, "mixed,%s,%s,%zu,%zu,%.4f,%.4f\n", bench_verb_name(verbs[v]), d->label, n, materials,
-			racer[0].rate.median, share(racer + 1));
-	}
-	for (int i = 0; i < scenes; i++)
-		lobe_scene_destroy(shading[i].scene);
-	return ok;
-}
 
 /* --- arrays of structs -------------------------------------------------------------------------------------------- */
 
@@ -131,7 +70,7 @@ static int struct_rows(FILE *csv, const bench_device *d, int lobe, const bench_a
 		printf("%-34s %-9s %-10s %9zu %9.1f %7.1f %%\n",
 		       lobe == BENCH_LOBE_LAMBERT ? "structs, lambert" : "structs, ggx_conductor",
 		       bench_verb_name(verbs[v]), d->label, n, racer[1].rate.median, 100.0 * racer[1].ratio.median);
-		fprintf(csv, "structs %s,%s,%s,%zu,1,%.4f,%.4f\n", bench_lobe_name(lobe), bench_verb_name(verbs[v]),
+		fprintf(csv, "structs %s,%s,%s,%zu,1,%.4f,%.4f,-,-\n", bench_lobe_name(lobe), bench_verb_name(verbs[v]),
 			d->label, n, racer[1].rate.median, 100.0 * racer[1].ratio.median);
 	}
 	lobe_scene_destroy(shading[0].scene);
@@ -140,41 +79,43 @@ static int struct_rows(FILE *csv, const bench_device *d, int lobe, const bench_a
 
 /* --- both --------------------------------------------------------------------------------------------------------- */
 
-int bench_layout(const bench_device *devices, int count, size_t n, size_t runs, const char *path)
+int bench_layout(const bench_device *devices, int count, size_t n, size_t runs, const char *path,
+		 bench_mixed_results *mixed)
 {
-	static const size_t materials[] = {BENCH_LOBES, 30 * BENCH_LOBES};
 	static const int lobes[] = {BENCH_LOBE_LAMBERT, BENCH_LOBE_GGX_CONDUCTOR};
 	const size_t small = n < 8192 ? n : 8192;
 	bench_arrays a;
 	FILE *csv = bench_create_file(path);
-	uint32_t *const material = malloc(n * sizeof *material);
 	hit *const h = malloc(n * sizeof *h);
-	int ok = csv && material && h && bench_arrays_create(&a, n);
+	int ok = csv && h && bench_arrays_create(&a, n);
 	const int arrays = ok;
 	if (csv && !ok)
 		fprintf(stderr, "throughput: out of memory\n");
 	if (ok) {
-		printf("\nLayout: batches of %zu elements. mixed: random materials of every lobe, in percent of the "
-		       "mean of\n"
-		       "the lobes alone. structs: inputs and outputs in structs of %zu bytes, in percent of packed "
-		       "arrays; in\n"
-		       "memory, and in the cache (%zu elements).\n\n",
-		       n, sizeof *h, small);
-		printf("%-34s %-9s %-10s %9s %9s %9s\n", "what", "verb", "device", "materials", "M/s", "share");
-		fputs("what,verb,device,elements,materials,median_melements_per_s,share_percent\n", csv);
+		printf("\nLayout. Mixed: random materials. of mean: the rate in percent of the mean of its lobes "
+		       "alone, which takes\n"
+		       "for each lobe's elements the time of as many in a batch of that lobe (the harmonic mean, "
+		       "weighted by elements).\n"
+		       "sorting: finding each element's place, moving: bringing inputs there and results back, both "
+		       "alone, in percent\n"
+		       "of that mean's time.\n\n");
+		printf("%-34s %-9s %-10s %9s %9s %9s %9s %9s %9s\n", "what", "verb", "device", "elements", "materials",
+		       "M/s", "of mean", "sorting", "moving");
+		fputs("what,verb,device,elements,materials,median_melements_per_s,share_percent,sorting_percent,"
+		      "moving_percent\n",
+		      csv);
+		ok = bench_mixed(csv, devices, count, n, runs, mixed);
 	}
-	for (int d = 0; ok && d < count; d++)
-		for (size_t i = 0; ok && i < sizeof materials / sizeof *materials; i++)
-			ok = mixed_rows(csv, &devices[d], &a, material, n, materials[i], runs);
 	if (ok)
-		printf("\n%-34s %-9s %-10s %9s %9s %9s\n", "what", "verb", "device", "elements", "M/s", "share");
+		printf("\nStructs: inputs and outputs in structs of %zu bytes, in percent of packed arrays; in memory, "
+		       "and in the cache.\n\n%-34s %-9s %-10s %9s %9s %9s\n",
+		       sizeof *h, "what", "verb", "device", "elements", "M/s", "share");
 	for (int d = 0; ok && d < count; d++)
 		for (size_t i = 0; ok && i < sizeof lobes / sizeof *lobes; i++)
 			ok = struct_rows(csv, &devices[d], lobes[i], &a, h, n, runs) &&
 			     struct_rows(csv, &devices[d], lobes[i], &a, h, small, runs);
 	if (arrays)
 		bench_arrays_destroy(&a);
-	free(material);
 	free(h);
 	return csv && fclose(csv) == 0 && ok;
 }

@@ -2,10 +2,11 @@
 #ifndef LOBE_BENCH_LAYOUT_H
 #define LOBE_BENCH_LAYOUT_H
 
-#include "scenes.h"
+#include "mixed.h"
 
-/* Prints the tables, by device, and writes them to path: a batch of all lobes with random materials against the mean of
- * each alone; a batch in structs against packed arrays. 0 after a failure. */
-int bench_layout(const bench_device *devices, int count, size_t n, size_t runs, const char *path);
+/* Prints the tables, by device, and writes them to path: mixed batches (mixed.h); a batch in structs against packed
+ * arrays. 0 after a failure. */
+int bench_layout(const bench_device *devices, int count, size_t n, size_t runs, const char *path,
+		 bench_mixed_results *mixed);
 
 #endif

@@ -132,6 +132,7 @@ int main(int argc, char **argv)
 	bench_options o;
 	bench_device devices[BENCH_DEVICES_MAX];
 	bench_results results = {NULL, 0};
+	bench_mixed_results mixed = {.count = 0};
 	int ok = 1;
 	if (argc == 6 && strcmp(argv[1], "--build-child") == 0)
 		return bench_build_child(argv + 2);
@@ -163,7 +164,7 @@ int main(int argc, char **argv)
 	if (o.hand && native && (o.lobe < 0 || o.lobe == BENCH_LOBE_GGX_CONDUCTOR))
 		ok = ok && bench_hand(plan.sizes[0], o.runs, hand_csv);
 	if (o.layout && o.lobe < 0)
-		ok = ok && bench_layout(devices, count, plan.sizes[0], o.runs, layout_csv);
+		ok = ok && bench_layout(devices, count, plan.sizes[0], o.runs, layout_csv, &mixed);
 	if (o.scaling && native)
 		ok = ok && bench_scaling(o.lobe < 0 ? BENCH_LOBE_GGX_CONDUCTOR : o.lobe, o.runs, scaling_most(&o),
 					 scaling_csv);
@@ -172,7 +173,7 @@ int main(int argc, char **argv)
 	if (o.pruning)
 		ok = ok && bench_pruning(&plan, &results, library, pruning_csv);
 	if (ok)
-		bench_print_targets(&plan, &results);
+		bench_print_targets(&plan, &results, &mixed);
 	free(library);
 	free(objects);
 	free(build_csv);

@@ -228,15 +228,32 @@ static lobe_status check_presence(const lobe_job *job, int sample, const char *c
 	return LOBE_OK;
 }
 
+/* How many of material[] are below count, for sure: whole groups, of which a compiler makes vectors. Those have signed
+ * comparisons alone, so the sign tells: a number beyond the last, or one of the upper half. */
+static size_t count_valid(const uint32_t *material, size_t n, size_t count)
+{
+	enum { GROUP = 64 };
+	const uint32_t last = count > INT32_MAX ? INT32_MAX : (uint32_t)count - 1;
+	size_t i = 0;
+	for (uint32_t signs = 0; i + GROUP <= n; i += GROUP) {
+		for (size_t k = 0; k < GROUP; k++)
+			signs |= material[i + k] | (last - material[i + k]);
+		if (signs > INT32_MAX)
+			break;
+	}
+	return i;
+}
+
 /* Arrays sound, material indices in range. */
 static lobe_status check_host(const lobe_scene *scene, const lobe_job *job, int sample, const char *call)
 {
 	const lobe_status status = lobe_check_arrays(job, sample, call);
 	if (status != LOBE_OK || !job->material)
 		return status;
-	const unsigned char *at = job->material;
-	for (size_t i = 0; i < job->count; i++, at += job->material_stride) {
-		const uint32_t material = *(const uint32_t *)(const void *)at;
+	const unsigned char *const at = job->material;
+	for (size_t i = job->material_stride == 4 ? count_valid(job->material, job->count, scene->count) : 0;
+	     i < job->count; i++) {
+		const uint32_t material = *(const uint32_t *)(const void *)(at + i * job->material_stride);
 		if (material >= scene->count)
 			return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: batch->material[%zu] = %u, but the scene has %zu",
 					 call, i, material, scene->count);

@@ -14,6 +14,9 @@ extern const lobe_native_split lobe_native_split_baseline;
 #ifdef LOBE_X86
 extern const lobe_native_split lobe_native_split_avx2, lobe_native_split_avx512;
 #endif
+#ifdef LOBE_VBMI2
+extern const lobe_native_split lobe_native_split_vbmi2;
+#endif
 
 typedef struct {
 	const char *name;
@@ -28,6 +31,10 @@ static void list_isas(isa *list)
 	list[LOBE_ISA_AVX512] = (isa){"avx512", &lobe_native_split_avx512,
 				      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
 					      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")};
+#ifdef LOBE_VBMI2
+	if (__builtin_cpu_supports("avx512vbmi2") && __builtin_cpu_supports("popcnt"))
+		list[LOBE_ISA_AVX512].split = &lobe_native_split_vbmi2;
+#endif
 	list[LOBE_ISA_AVX2] =
 		(isa){"avx2", &lobe_native_split_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")};
 #endif
@@ -63,12 +70,24 @@ static size_t chunk_size(const native_device *device, size_t count, double cost)
  * processors by more, so a number of elements would not do. A thread that was put aside in between counts little. */
 static void learn(double *cost, double took) { *cost = *cost > took ? took : *cost + (took - *cost) / 8; }
 
+/* Whether no cache would keep what a batch writes. Results for structs go through the thread's own memory, which does. */
+static int streams(const lobe_job *job)
+{
+	size_t outputs = 0;
+	for (int k = 0; k < LOBE_OUT_COUNT; k++) {
+		if (job->out[k] && job->out_stride[k] != 4)
+			return 0;
+		outputs += job->out[k] != NULL;
+	}
+	return job->count >= LOBE_NATIVE_STREAM / 4 / outputs;
+}
+
 static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 {
 	native_device *device = (native_device *)scene->device;
 	const int whole = lobe_native_whole(scene, job);
 	double *const cost = &device->cost[whole < 0 ? LOBE_COUNT + 1 : whole][job->verb];
-	lobe_native_job j = {scene, job, device->rows, device->split, device->scratch, 0, 0.0};
+	lobe_native_job j = {scene, job, device->rows, device->split, device->scratch, 0, streams(job), 0.0};
 	pthread_mutex_lock(&device->lock);
 	j.chunk = chunk_size(device, job->count, *cost);
 	lobe_pool_run(device->pool, lobe_native_chunk, &j, (job->count + j.chunk - 1) / j.chunk);
@@ -76,6 +95,11 @@ static lobe_status native_run(lobe_scene *scene, const lobe_job *job)
 		learn(cost, j.nanoseconds);
 	pthread_mutex_unlock(&device->lock);
 	return LOBE_OK;
+}
+
+const lobe_native_split *lobe_native_split_of(const lobe_device *device)
+{
+	return ((const native_device *)device)->split;
 }
 
 /* That the program has the loops of every lobe in the scene. */
@@ -130,6 +154,14 @@ static size_t processors(void)
 	return online < 1 ? 1 : (size_t)online;
 }
 
+static lobe_native_scratch *create_scratch(size_t threads)
+{
+	void *scratch;
+	if (posix_memalign(&scratch, 64, threads * sizeof(lobe_native_scratch)) != 0)
+		return NULL;
+	return memset(scratch, 0, threads * sizeof(lobe_native_scratch));
+}
+
 lobe_status lobe_native_count(size_t *count)
 {
 	*count = 1;
@@ -160,7 +192,7 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 		for (int verb = 0; verb < LOBE_VERB_COUNT; verb++)
 			device->cost[lobe][verb] = 2.0;
 	pthread_mutex_init(&device->lock, NULL);
-	device->scratch = calloc(threads, sizeof *device->scratch);
+	device->scratch = create_scratch(threads);
 	device->pool = lobe_pool_create(threads);
 	if (!device->scratch || !device->pool) {
 		native_close(&device->base);

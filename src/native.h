@@ -17,6 +17,11 @@
  * cache. */
 #define LOBE_NATIVE_BLOCK 256
 
+/* Bytes of outputs from which mixed batches are written past the caches: no cache would keep them for their reader. */
+#ifndef LOBE_NATIVE_STREAM
+#define LOBE_NATIVE_STREAM ((size_t)16 << 20)
+#endif
+
 /* scene->state: the key by which elements are split, materials of a lobe side by side, or lobes. */
 typedef struct {
 	int single; /* the only lobe, or -1 */
@@ -28,10 +33,13 @@ typedef struct {
 
 /* A thread's own memory: elements of a block, packed; and sorted by key. */
 typedef struct {
-	uint32_t material[LOBE_NATIVE_SPLIT_MAX], slots[LOBE_NATIVE_SPLIT_MAX], place[LOBE_NATIVE_SPLIT_MAX];
-	uint32_t slot[LOBE_NATIVE_SPLIT_ROOM];
-	float packed_in[LOBE_IN_COUNT][LOBE_NATIVE_SPLIT_MAX], in[LOBE_IN_COUNT][LOBE_NATIVE_SPLIT_ROOM];
-	float packed_out[LOBE_OUT_COUNT][LOBE_NATIVE_SPLIT_MAX], out[LOBE_OUT_COUNT][LOBE_NATIVE_SPLIT_ROOM];
+	lobe_native_places places;
+	uint32_t material[LOBE_NATIVE_SPLIT_MAX], slots[LOBE_NATIVE_SPLIT_MAX];
+	uint32_t slot[LOBE_NATIVE_SPLIT_ROOM] LOBE_NATIVE_ALIGNED;
+	float packed_in[LOBE_IN_COUNT][LOBE_NATIVE_SPLIT_MAX] LOBE_NATIVE_ALIGNED;
+	float in[LOBE_IN_COUNT][LOBE_NATIVE_SPLIT_ROOM] LOBE_NATIVE_ALIGNED;
+	float packed_out[LOBE_OUT_COUNT][LOBE_NATIVE_SPLIT_MAX] LOBE_NATIVE_ALIGNED;
+	float out[LOBE_OUT_COUNT][LOBE_NATIVE_SPLIT_ROOM] LOBE_NATIVE_ALIGNED;
 	uint32_t packed_event[LOBE_NATIVE_SPLIT_MAX], event[LOBE_NATIVE_SPLIT_ROOM];
 	unsigned char apart[64]; /* the next thread's is in other cache lines */
 } lobe_native_scratch;
@@ -44,6 +52,7 @@ typedef struct {
 	const lobe_native_split *split;
 	lobe_native_scratch *scratch; /* [threads] */
 	size_t chunk;
+	int stream;         /* mixed results go past the caches */
 	double nanoseconds; /* that an element of the first chunk took, set when it is done */
 } lobe_native_job;
 
@@ -52,6 +61,9 @@ int lobe_native_whole(const lobe_scene *scene, const lobe_job *job);
 
 /* A lobe_pool_work; context: a lobe_native_job. */
 void lobe_native_chunk(void *context, size_t chunk, size_t thread);
+
+/* How a native device sorts, for those who time it. (native.c) */
+const lobe_native_split *lobe_native_split_of(const lobe_device *device);
 
 lobe_status lobe_native_scene_create(lobe_scene *scene);
 void lobe_native_scene_destroy(lobe_scene *scene);

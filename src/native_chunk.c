@@ -13,14 +13,17 @@
 lobe_status lobe_native_scene_create(lobe_scene *scene)
 {
 	const int by_material = scene->count <= LOBE_NATIVE_SPLIT_MATERIALS;
+	size_t none = scene->count;
 	lobe_native_scene *const state = calloc(1, sizeof *state + scene->count * sizeof *state->key);
 	if (!state)
 		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_scene_create: out of memory");
 	state->single = -1;
 	state->by_material = by_material;
 	for (int lobe = 0; lobe <= LOBE_COUNT; lobe++) {
-		/* Materials without a lobe are all the same. */
-		const size_t n = by_material && lobe < LOBE_COUNT ? scene->table[lobe].count : 1;
+		/* Materials without a lobe are all the same; what no material has needs no key. */
+		const size_t materials = lobe < LOBE_COUNT ? scene->table[lobe].count : none;
+		const size_t n = by_material && lobe < LOBE_COUNT ? materials : materials > 0;
+		none -= materials;
 		state->first_key[lobe + 1] = state->first_key[lobe] + (uint32_t)n;
 		if (lobe < LOBE_COUNT && scene->table[lobe].count == scene->count)
 			state->single = lobe;
@@ -125,16 +128,35 @@ static void shade_key(const lobe_native_job *j, lobe_native_scratch *s, int lobe
 	run_row(j, lobe, slot, key - state->first_key[lobe], all, in, out);
 }
 
-/* A block of several lobes. */
-static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const block *b)
+/* What the next block reads, and how much of it is on its way to the caches. */
+typedef struct {
+	int arrays;
+	const unsigned char *array[LOBE_IN_COUNT + 1];
+	size_t bytes, done; /* of each */
+} ahead;
+
+/* Asks for the next bytes of each. */
+static void fetch(ahead *a, size_t bytes)
 {
+	const size_t end = a->bytes - a->done < bytes ? a->bytes : a->done + bytes;
+	for (int k = 0; k < a->arrays; k++)
+		for (size_t i = a->done; i < end; i += 64)
+			__builtin_prefetch(a->array[k] + i, 0, 2);
+	a->done = end;
+}
+
+/* A block of several lobes. What the next one reads is fetched while results are joined: parting, a block at a time, is
+ * too short a walk for the processor to see it coming. */
+static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const block *b, ahead *a)
+{
+	enum { PIECE = 2 * LOBE_NATIVE_SPLIT_TILE };
 	const lobe_native_scene *const state = j->scene->state;
 	const int sample = lobe_verb_is_sample(j->job->verb);
 	const void *from[LOBE_IN_COUNT + 1], *results[LOBE_OUT_COUNT];
 	void *to[LOBE_IN_COUNT + 1], *wanted[LOBE_OUT_COUNT];
 	uint32_t begin[LOBE_NATIVE_SPLIT_KEYS], count[LOBE_NATIVE_SPLIT_KEYS];
 	int inputs = LOBE_IN_COUNT, outputs = 0;
-	j->split->sort(s->place, begin, count, state->key, state->keys, b->material, b->n);
+	j->split->sort(&s->places, begin, count, state->key, state->keys, j->scene->count, b->material, b->n);
 	for (int k = 0; k < LOBE_IN_COUNT; k++) {
 		from[k] = b->in[k];
 		to[k] = s->in[k];
@@ -144,7 +166,7 @@ static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const 
 		from[inputs] = s->slots;
 		to[inputs++] = s->slot;
 	}
-	j->split->part(to, from, inputs, s->place, b->n);
+	j->split->part(to, from, inputs, &s->places, b->n);
 	for (int lobe = 0; lobe <= LOBE_COUNT; lobe++)
 		for (uint32_t k = state->first_key[lobe]; k < state->first_key[lobe + 1]; k++)
 			if (count[k])
@@ -154,7 +176,10 @@ static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const 
 			results[outputs] = room(s, k, sample);
 			wanted[outputs++] = b->out[k];
 		}
-	j->split->join(wanted, results, outputs, s->place, b->n);
+	for (size_t i = 0; i < b->n; i += PIECE) {
+		fetch(a, 4 * PIECE);
+		j->split->join(wanted, results, outputs, &s->places, i, b->n - i < PIECE ? b->n : i + PIECE, j->stream);
+	}
 }
 
 /* --- chunks ------------------------------------------------------------------------------------------------------ */
@@ -221,6 +246,18 @@ int lobe_native_whole(const lobe_scene *scene, const lobe_job *job)
 	return job->material ? state->single : (int)scene->index[0];
 }
 
+/* Elements [first, first + n): those arrays that are read where they are. */
+static ahead look_ahead(const lobe_job *job, size_t first, size_t n)
+{
+	ahead a = {0, {NULL}, 4 * n, 0};
+	for (int k = 0; n && k < LOBE_IN_COUNT; k++)
+		if (job->in_stride[k] == 4)
+			a.array[a.arrays++] = word_at(job->in[k], 4, first);
+	if (n && job->material_stride == 4)
+		a.array[a.arrays++] = word_at(job->material, 4, first);
+	return a;
+}
+
 static void shade_chunk(const lobe_native_job *j, lobe_native_scratch *s, size_t first, size_t end)
 {
 	const int whole = lobe_native_whole(j->scene, j->job);
@@ -232,10 +269,15 @@ static void shade_chunk(const lobe_native_job *j, lobe_native_scratch *s, size_t
 			shade_none(j->job, &b);
 		else if (whole >= 0)
 			shade_one(j, s, whole, &b);
-		else
-			shade_mixed(j, s, &b);
+		else {
+			const size_t next = at + b.n, left = end - next;
+			ahead a = look_ahead(j->job, next, left < step ? left : step);
+			shade_mixed(j, s, &b, &a);
+		}
 		lobe_unpack(&unpack, b.n);
 	}
+	if (j->stream)
+		j->split->settle();
 }
 
 void lobe_native_chunk(void *context, size_t chunk, size_t thread)
