@@ -145,7 +145,8 @@ static void write_causes(report_page *page, const report_table *t, const stabili
 	}
 	report_text(page, "\n");
 	report_finding(
-		page, "%.2g %% of these results are above %d floors, each for a reason computed from the case: %s.",
+		page,
+		"%.2g %% of these results are above %d floors, by the reason that the sweep computes for each: %s.",
 		100.0 * (double)(textbook->above + other->above) / (double)(textbook->compared + other->compared),
 		STABILITY_LIMIT, causes);
 }
