@@ -92,6 +92,29 @@ static void test_powers(void)
 	measured("Gamma(x)/Gamma(x + 1/2): relative", ratio, 2e-6);
 }
 
+/* (1 + x)^-e to a few ulp, also where it is 1e-30. Planted: its exponential of e log(1 + x), whose argument alone is off by
+ * more. */
+static void test_decay(void)
+{
+	double ulp = 0.0, large = 0.0, planted = 0.0;
+	for (uint64_t i = 0; i < 400000; i++) {
+		const float x = powf(2.0f, 60.0f * test_uniform(11, i) - 30.0f);
+		const float e = powf(2.0f, 30.0f * test_uniform(12, i) - 3.0f);
+		const long double exact = expl(-(long double)e * log1pl((long double)x));
+		if (exact < 1e-36L)
+			continue;
+		const double off = test_ulp(lobe_decay(x, e), (double)exact);
+		*(e < 1e5f ? &ulp : &large) = worse(e < 1e5f ? ulp : large, off);
+		planted = worse(planted, test_ulp(lobe_exp(-e * lobe_log1p(x)), (double)exact));
+	}
+	measured("(1 + x)^-e, e to 1e5: ulp", ulp, 3.0);
+	/* What 1 + x loses, e 2^-24, is up to 8 then, and so are the roundings of it. */
+	measured("(1 + x)^-e, e to 1.3e8: ulp", large, 16.0);
+	TEST_ASSERT_TRUE(planted > 30.0);
+	TEST_ASSERT_TRUE(lobe_decay(0.0f, 2e8f) == 1.0f && lobe_decay(HUGE_VALF, 1.5f) == 0.0f);
+	TEST_ASSERT_TRUE(lobe_decay(1e30f, 0.0f) == 1.0f);
+}
+
 /* --- members that are known ------------------------------------------------------------------------------------------ */
 
 /* d of slopes r is GGX of slopes r/width. */
@@ -365,6 +388,7 @@ int main(void)
 	UNITY_BEGIN();
 	RUN_TEST(test_made);
 	RUN_TEST(test_powers);
+	RUN_TEST(test_decay);
 	RUN_TEST(test_ggx_members);
 	RUN_TEST(test_beckmann_limit);
 	RUN_TEST(test_phong_is_student_t);

@@ -382,6 +382,33 @@ static void test_stretch_invariance(void)
 /* --- visible normals
  * -------------------------------------------------------------------------------------------------- */
 
+/* The last cells of u.y on the side where the cap's point and v add up: slopes of the visible normals against the cap in
+ * long double. Planted: the point's distance from the axis as the root of h (2 t - h). */
+static void test_visible_far_end(void)
+{
+	double off = 0.0, planted = 0.0;
+	for (size_t k = 0; k < WIDTHS; k++)
+		for (int angle = 1; angle < 90; angle++)
+			for (uint32_t i = 1; i <= 64u; i++) {
+				const double theta = (double)angle * (double)PI / 180.0;
+				const lobe_vec3 v =
+					lobe_vec3_make(widths[k] * (float)sin(theta), 0.0f, (float)cos(theta));
+				const lobe_vec2 u = lobe_vec2_make(0.0f, 1.0f - (float)i * (float)U);
+				const long double x = (long double)v.x, z = (long double)v.z, t = sqrtl(x * x + z * z);
+				const long double rest = (1.0L - (long double)u.y) * (t + z), h = t + z - rest;
+				const long double exact = (x + sqrtl(h * (t - z + rest))) / rest;
+				const lobe_vec3 m = lobe_ggx_visible_above(v, lobe_ggx_t(v), u);
+				const float rounded = u.y * (v.z + lobe_ggx_t(v)),
+					    two_t = lobe_ggx_t(v) + lobe_ggx_t(v);
+				const float s = sqrtf(fmaxf(rounded * (two_t - rounded), 0.0f));
+				off = worse(off, fabs((double)m.x / (double)m.z / (double)exact - 1.0));
+				planted = worse(planted, fabs((double)(v.x + s) / (double)m.z / (double)exact - 1.0));
+			}
+	/* z is off by 3 U and s by 4 U, x by one more. */
+	measured("visible normal, last cells: slope, relative", off, 8.0 * U);
+	TEST_ASSERT_TRUE(planted > 0.05);
+}
+
 #define SAMPLES  1000000u
 #define Z_BINS   16
 #define PHI_BINS 24
@@ -559,5 +586,6 @@ int main(void)
 	RUN_TEST(test_stretch_invariance);
 	RUN_TEST(test_visible_chi_square);
 	RUN_TEST(test_visible_extremes);
+	RUN_TEST(test_visible_far_end);
 	return UNITY_END();
 }

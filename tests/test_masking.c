@@ -365,7 +365,7 @@ static void test_van_ginneken(void)
 		const double p = pi * k / 100.0, wrapped = fabs(remainder(p, 2.0 * pi));
 		const lobe_vec3 o = direction_at(0.5, 3.0), i = direction_at(0.2, 3.0 + p);
 		const double expected = 4.41 * wrapped / (4.41 * wrapped + 1.0);
-		worst = larger(worst, fabs((double)lobe_masking_apart(o, i) - expected));
+		worst = larger(worst, fabs((double)lobe_masking_azimuth_make(o, i).apart - expected));
 	}
 	measured("van Ginneken's factor, any azimuths: off", worst, 2e-6);
 	const lobe_vec3 o = direction_at(0.3, 0.0), i = direction_at(0.2, pi);
@@ -452,6 +452,85 @@ static void test_rational(void)
 	TEST_ASSERT_TRUE(uncut > 0.03);
 }
 
+/* Near the root of its numerator, on which it ends, against the published polynomial in long double. */
+static void test_rational_ends_with_its_digits(void)
+{
+	double off = 0.0, planted = 0.0;
+	for (int k = 0; k <= 4000; k++) {
+		const float z = 1.5f + 2.4e-5f * (float)k;
+		const long double a = (long double)z;
+		const long double exact = a * (1.0L - 1.259L * a + 0.396L * a * a) / (3.535L * a + 2.181L * a * a);
+		const float sum = lobe_fma(1.0f, 1.0f, z * lobe_fma(0.396f, z, -1.259f));
+		const double hidden = (double)lobe_beckmann_hidden_rational(lobe_vec3_make(1.0f, 0.0f, z));
+		off = larger(off, fabs(hidden / (double)exact - 1.0));
+		planted = larger(planted, fabs((double)(sum / (2.181f * z + 3.535f)) / (double)exact - 1.0));
+	}
+	measured("Walter's rational Lambda from 1.5 to 1.596, relative", off, 5e-7);
+	TEST_ASSERT_TRUE(planted > 1e-4);
+}
+
+/* A lobe_seen of which masking uses z alone. */
+static lobe_seen seen_z(float z)
+{
+	lobe_seen d = {{0.0f, 0.0f, 0.0f}, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+	d.z = z;
+	return d;
+}
+
+/* G1 + G1 - 1 of V-cavities across the surface, in long double of the same areas, where one direction sees all of the side or
+ * nearly so, and the other little. Planted: as it is written. */
+static void test_vcavities_across(void)
+{
+	double off = 0.0, planted = 0.0;
+	for (uint32_t i = 0; i < 100000u; i++) {
+		const float least = powf(10.0f, -6.0f * test_uniform(21, i)), m_z = 0.1f + 0.9f * test_uniform(22, i);
+		const float z = 0.05f + 0.95f * test_uniform(23, i);
+		/* The greater is above 1, or below it by as much as the lesser is above 0 at most. */
+		const float g = i % 2 ? 1.0f + test_uniform(24, i) : 1.0f - 0.9f * least * test_uniform(24, i);
+		lobe_seen_facet m = {2.0f * m_z * z / g, 2.0f * m_z * z / least, m_z, 1.0f};
+		const long double sees[2] = {fminl(1.0L, 2.0L * (long double)m_z * (long double)z / (long double)m.o),
+					     fminl(1.0L, 2.0L * (long double)m_z * (long double)z / (long double)m.i)};
+		const long double exact = sees[0] + sees[1] - 1.0L;
+		if (exact < 0.1L * (long double)least)
+			continue;
+		const float as_is = lobe_vcavity_g1(z, m.o, m_z) - (1.0f - lobe_vcavity_g1(z, m.i, m_z));
+		const double one = (double)(z * lobe_masking_vcavity(seen_z(z), seen_z(z), m, 1));
+		const float swap = m.o;
+		m.o = m.i;
+		m.i = swap;
+		const double other = (double)(z * lobe_masking_vcavity(seen_z(z), seen_z(z), m, 1));
+		off = larger(off, larger(fabs(one / (double)exact - 1.0), fabs(other / (double)exact - 1.0)));
+		planted = larger(planted, fabs((double)as_is / (double)exact - 1.0));
+	}
+	measured("V-cavities across: G1(o) + G1(i) - 1, relative", off, 2e-6);
+	TEST_ASSERT_TRUE(planted > 1e-3);
+}
+
+/* Direction-correlated masking of nearly opposite azimuths is 1/14.85 of the lesser G1, and a product: the weight of the
+ * lesser as a number of its own. Against long double of the same areas. */
+static void test_direction_correlated_keeps_its_digits(void)
+{
+	double off = 0.0;
+	for (uint32_t i = 0; i < 20000u; i++) {
+		const double p = 3.0 + 0.14 * (double)test_uniform(31, i);
+		const lobe_seen o =
+			lobe_see(ggx(0.9), direction_at(1.5 * (double)test_uniform(32, i) + 0.05, 0.3), 1.0f);
+		const lobe_seen a =
+			lobe_see(ggx(0.9), direction_at(1.5 * (double)test_uniform(33, i) + 0.05, 0.3 + p), 1.0f);
+		const long double angle = acosl(
+			((long double)o.v.x * (long double)a.v.x + (long double)o.v.y * (long double)a.v.y) /
+			sqrtl(((long double)o.v.x * (long double)o.v.x + (long double)o.v.y * (long double)o.v.y) *
+			      ((long double)a.v.x * (long double)a.v.x + (long double)a.v.y * (long double)a.v.y)));
+		const long double l = 4.41L * angle / (4.41L * angle + 1.0L);
+		const long double g_o = (long double)o.z / ((long double)o.z + (long double)o.hides),
+				  g_a = (long double)a.z / ((long double)a.z + (long double)a.hides);
+		const long double exact = l * g_o * g_a + (1.0L - l) * fminl(g_o, g_a);
+		const double got = (double)o.z * (double)lobe_masking_smith(LOBE_JOINT_DIRECTION, o, a);
+		off = larger(off, fabs(got / (double)exact - 1.0));
+	}
+	measured("direction-correlated, opposite azimuths: relative", off, 1e-6);
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
@@ -465,5 +544,8 @@ int main(void)
 	RUN_TEST(test_behind_the_mean_plane);
 	RUN_TEST(test_beta);
 	RUN_TEST(test_rational);
+	RUN_TEST(test_rational_ends_with_its_digits);
+	RUN_TEST(test_vcavities_across);
+	RUN_TEST(test_direction_correlated_keeps_its_digits);
 	return UNITY_END() != 0;
 }

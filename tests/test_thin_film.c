@@ -344,6 +344,26 @@ static void test_rgb_limits(void)
 	measured("RGB: outside of [0, 1]", outside, 0.0);
 }
 
+/* A film so dense that both its faces reflect nearly all is a resonator of index/4 bounces, and none at thickness 0: the
+ * roundings of a series as long as that stay those of a few terms. */
+static void test_rgb_of_dense_films(void)
+{
+	double dense = 0.0, densest = 0.0;
+	for (uint32_t i = 0; i < 60000u; i++) {
+		stack s = make_stack(i, (int)(i & 1u));
+		s.d = 0.0f;
+		s.film = powf(10.0f, 3.0f * test_uniform(8, i));
+		const lobe_rgb rgb = i & 1u ? lobe_thin_film_conductor_rgb(s.c, film_of(s), n_of(s), k_of(s))
+					    : lobe_thin_film_dielectric_rgb(s.c, film_of(s), s.n[0]).reflectance;
+		for (int m = 0; m < 3; m++) {
+			const double off = fabs(channel(rgb, m) - base_of(s, m));
+			*(s.film < 100.0f ? &dense : &densest) = larger(s.film < 100.0f ? dense : densest, off);
+		}
+	}
+	measured("RGB, thickness 0, index to 100: |R - Fresnel|", dense, 160.0 * U);
+	measured("RGB, thickness 0, index 100 to 1000: |R - Fresnel|", densest, 160.0 * U);
+}
+
 /* What everybody has seen: a soap film is black where it is thinnest, and a film of 100 nm of n = 1.38 takes the
  * reflection off glass, least of the green. */
 static void test_what_everybody_has_seen(void)
@@ -449,6 +469,7 @@ int main(void)
 	RUN_TEST(test_from_inside_it_is_the_same);
 	RUN_TEST(test_rgb_against_the_spectrum);
 	RUN_TEST(test_rgb_limits);
+	RUN_TEST(test_rgb_of_dense_films);
 	RUN_TEST(test_what_everybody_has_seen);
 	RUN_TEST(test_lobes_without_film);
 	RUN_TEST(test_soap_film);

@@ -150,6 +150,27 @@ static void test_cap_domain(void)
 	measured("cap: 1 - z - height", below, 1.0 * U);
 }
 
+/* Where the cap is nearly the whole sphere and u.y in its last cells, against the map in long double: what is left of the
+ * sphere below a point is small. Planted: that as a difference of what is above. */
+static void test_cap_far_end(void)
+{
+	double off = 0.0, planted = 0.0;
+	for (uint32_t k = 0; k < 8192u; k += 61u)
+		for (uint32_t i = 1; i <= 8192u; i += 67u) {
+			const float height = 2.0f - (float)k * 0x1p-23f;
+			const lobe_vec2 u = lobe_vec2_make(0.125f, 1.0f - (float)i * (float)U);
+			const long double h = (long double)u.y * (long double)height;
+			const double exact = (double)sqrtl(h * (2.0L - h));
+			const lobe_vec3 w = lobe_spherical_cap(u, height);
+			const float rounded = u.y * height;
+			off = larger(off, fabs(hypot((double)w.x, (double)w.y) / exact - 1.0));
+			planted = larger(planted, fabs(sqrt((double)(rounded * (2.0f - rounded))) / exact - 1.0));
+		}
+	/* s is off by 3 U, sine and cosine by 2 U each, and the products by 1 U. */
+	measured("cap, last cells: distance from the axis, relative", off, 6.0 * U);
+	TEST_ASSERT_TRUE(planted > 100.0 * U);
+}
+
 static void test_uniform_hemisphere_domain(void)
 {
 	double lowest = 1.0;
@@ -463,6 +484,7 @@ int main(void)
 	RUN_TEST(test_disk_domain);
 	RUN_TEST(test_cosine_domain);
 	RUN_TEST(test_cap_domain);
+	RUN_TEST(test_cap_far_end);
 	RUN_TEST(test_uniform_hemisphere_domain);
 	RUN_TEST(test_density_outside);
 	RUN_TEST(test_chi_square);

@@ -1,72 +1,9 @@
 /* stability.c - the section "stability": stiff and extreme corners of every lobe. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "stability_studies.h"
-
-double stability_percentile(const unsigned long *bins, double at)
-{
-	unsigned long all = 0, below = 0;
-	for (int i = 0; i < STABILITY_BINS; i++)
-		all += bins[i];
-	for (int i = STABILITY_BINS - 1; i > 0; i--) {
-		below += bins[i];
-		if ((double)below > (1.0 - at) * (double)all)
-			return exp2((i + 1 - 64) / 8.0);
-	}
-	return 0.0;
-}
-
-/* --- rows added up ------------------------------------------------------------------------------------------------------ */
-
-static void add_bins(unsigned long *bins, const char *text)
-{
-	int i, used;
-	unsigned long n;
-	for (; sscanf(text, "%d:%lu%n", &i, &n, &used) == 2; text += used)
-		if (i >= 0 && i < STABILITY_BINS)
-			bins[i] += n;
-}
-
-static unsigned long count(const report_table *t, size_t row, const char *column)
-{
-	return (unsigned long)report_number(t, row, column);
-}
-
-static int is(const report_table *t, size_t row, const char *column, const char *value)
-{
-	return strcmp(report_cell(t, row, column), value) == 0;
-}
-
-/* The rows of a lobe, verb and reference; NULL: any. */
-static stability_tally sum(const report_table *t, const char *lobe, const char *verb, const char *reference)
-{
-	stability_tally s;
-	memset(&s, 0, sizeof s);
-	for (size_t row = 0; row < report_table_rows(t); row++) {
-		if ((lobe && !is(t, row, "lobe", lobe)) || (verb && !is(t, row, "verb", verb)) ||
-		    (reference && !is(t, row, "reference", reference)))
-			continue;
-		s.cases += count(t, row, "cases");
-		s.compared += count(t, row, "compared");
-		s.non_finite += count(t, row, "non_finite");
-		s.negative += count(t, row, "negative");
-		s.above += count(t, row, "above");
-		s.classes[STABILITY_PLAIN] += count(t, row, "unexplained");
-		s.classes[STABILITY_UNDETERMINED] += count(t, row, "undetermined");
-		s.classes[STABILITY_TINY] += count(t, row, "tiny");
-		s.classes[STABILITY_OF_ONE] += count(t, row, "of_one");
-		s.worst_ulp = fmax(s.worst_ulp, report_number(t, row, "worst_ulp"));
-		s.worst = fmax(s.worst, report_number(t, row, "worst"));
-		s.worst_of_one = fmax(s.worst_of_one, report_number(t, row, "worst_of_one"));
-		s.own_error = fmax(s.own_error, report_number(t, row, "own_error"));
-		add_bins(s.bins, report_cell(t, row, "bins"));
-		add_bins(s.bins_of_one, report_cell(t, row, "bins_of_one"));
-	}
-	return s;
-}
 
 /* --- parts of the section ------------------------------------------------------------------------------------------------- */
 
@@ -82,7 +19,7 @@ static void write_counts(report_page *page, const report_table *t)
 	for (size_t l = 0; l < STABILITY_LOBES; l++) {
 		double n[5] = {0};
 		for (size_t row = 0; row < report_table_rows(t); row++)
-			for (int k = 0; k < 5 && is(t, row, "lobe", stability_lobe_names[l]); k++)
+			for (int k = 0; k < 5 && stability_is(t, row, "lobe", stability_lobe_names[l]); k++)
 				n[k] += report_number(t, row, columns[k]);
 		for (int k = 0; k < 5; k++)
 			all[k] += n[k];
@@ -95,89 +32,6 @@ static void write_counts(report_page *page, const report_table *t)
 		"Of %.3g results at stiff and extreme corners of %d lobes, %.0f are not finite and %.0f negative; "
 		"sample().pdf is pdf() bit for bit in %.6g %% of %.3g samples.",
 		all[0] * 3.0, STABILITY_LOBES, all[2], all[3], 100.0 * (1.0 - all[4] / all[1]), all[1]);
-}
-
-static void write_row(report_page *page, const char *name, const char *verb, const char *reference,
-		      const stability_tally *s)
-{
-	const double n = s->compared ? (double)s->compared : 1.0;
-	report_text(
-		page, "| %s | %s | %s | %lu | %.2g | %.3g | %.3g %% | %lu | %lu | %lu | %lu | %.3g | %.3g | %.1e |\n",
-		name, verb, reference, s->compared, stability_percentile(s->bins, 0.5),
-		stability_percentile(s->bins, 0.9999), 100.0 * (double)s->above / n, s->classes[STABILITY_UNDETERMINED],
-		s->classes[STABILITY_TINY], s->classes[STABILITY_OF_ONE], s->classes[STABILITY_PLAIN],
-		stability_percentile(s->bins_of_one, 0.9999), s->worst_of_one, s->own_error);
-}
-
-static void write_errors(report_page *page, const report_table *t)
-{
-	static const char *const references[2] = {"textbook", "double build"};
-	report_text(
-		page,
-		"### Errors over the floor\n\n"
-		"The **floor** of a case is what half a unit in the last place of each input (components of wo and wi, "
-		"widths, "
-		"indices) does to the exact answer, root of the sum of squares, and at least half an ulp of the "
-		"answer. "
-		"**Error/floor** is therefore what the library's arithmetic adds to what the question leaves open: a "
-		"correctly rounded result is at most 1.\n\n"
-		"*textbook*: the exact answer is the papers' formulas (slopes, tangents, normalised half vectors, "
-		"complex "
-		"roots), written anew in long double; its own error, measured against 113 bits on one case of 64 and "
-		"on "
-		"every one above 8 floors, is the last column, in floors. *double build*: the library compiled in "
-		"double, where "
-		"there is no textbook (films in RGB, sums over facets, tables, maskings other than Smith's). "
-		"*direction*: a component of what "
-		"a sample returns, against the sampler's map of u; a u counts as the cell of 2^-24 that it is.\n\n"
-		"Every case above %d floors is counted under a reason: **undetermined**, the floor is above a tenth of "
-		"the answer; "
-		"**tiny**, below 1e-30, where factors underflow; **of one**, a reflectance or transmittance whose "
-		"header "
-		"promises some roundings of 1, not of itself (`core/fresnel.h`: metals whose index is nearly air's; "
-		"`fresnel_schlick.h`: curves that fall to f90 = 0; `airy.h`: interference), and with its error counted "
-		"in "
-		"roundings of 1 (2^-24; films 2^-22) it is within %d, so for a cosine to the facet near 1 and for the "
-		"two points of the "
-		"unit sphere that add up to a sampled normal; **none**, nothing of that. Undetermined and tiny cases "
-		"count as 0 in the "
-		"percentiles.\n\n"
-		"| lobe | result | reference | compared | median | 99.99 %% | above %d | undetermined | tiny | of one "
-		"| none | 99.99 "
-		"%% of one | worst of one | own error |\n|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
-		STABILITY_LIMIT, STABILITY_LIMIT, STABILITY_LIMIT);
-	for (size_t l = 0; l < STABILITY_LOBES; l++)
-		for (int v = 0; v < STABILITY_VERBS; v++)
-			for (int k = 0; k < 2; k++) {
-				const stability_tally s =
-					sum(t, stability_lobe_names[l], stability_verb_names[v], references[k]);
-				if (s.compared)
-					write_row(page, stability_lobe_names[l], stability_verb_names[v], references[k],
-						  &s);
-			}
-	const stability_tally all = sum(t, NULL, NULL, NULL), textbook = sum(t, NULL, NULL, "textbook"),
-			      other = sum(t, NULL, NULL, "double build");
-	write_row(page, "**all**", "", "textbook", &textbook);
-	write_row(page, "**all**", "", "double build", &other);
-	write_row(page, "**all**", "", "", &all);
-	report_text(page, "\n");
-	report_finding(
-		page,
-		"Error over the conditioning floor against the textbook in long double: median %.2g, %.3g at the "
-		"99.99th percentile of %.3g results with reflectances counted in roundings of 1 (%.3g in roundings of "
-		"themselves); above %d and explained by nothing: %lu.",
-		stability_percentile(textbook.bins, 0.5), stability_percentile(textbook.bins_of_one, 0.9999),
-		(double)textbook.compared, stability_percentile(textbook.bins, 0.9999), STABILITY_LIMIT,
-		textbook.classes[STABILITY_PLAIN]);
-	report_finding(page,
-		       "What loses digits beyond the question: %.2g %% of results, by reflectances that are exact to "
-		       "roundings of 1, "
-		       "not of themselves (metals with an index near air's, Schlick's curve falling to 0, "
-		       "interference); and %lu of "
-		       "%.3g results of films and comparison lobes (%.2g at the 99.99th percentile).",
-		       100.0 * (double)all.classes[STABILITY_OF_ONE] / (double)all.compared,
-		       other.classes[STABILITY_PLAIN], (double)other.compared,
-		       stability_percentile(other.bins_of_one, 0.9999));
 }
 
 static void write_worst(report_page *page, const report_table *t)
@@ -200,8 +54,10 @@ static void write_worst(report_page *page, const report_table *t)
 			    report_cell(t, row, "floor"), report_cell(t, row, "floor_directions"),
 			    report_number(t, row, "found") > STABILITY_LIMIT ? report_cell(t, row, "class") : "-",
 			    report_cell(t, row, "inputs"));
-		if (is(t, row, "yardstick", "floor of one") && is(t, row, "reference", "textbook") &&
-		    (!is(t, textbook, "yardstick", "floor of one") || !is(t, textbook, "reference", "textbook") ||
+		if (stability_is(t, row, "yardstick", "floor of one") &&
+		    stability_is(t, row, "reference", "textbook") &&
+		    (!stability_is(t, textbook, "yardstick", "floor of one") ||
+		     !stability_is(t, textbook, "reference", "textbook") ||
 		     report_number(t, row, "found") > report_number(t, textbook, "found")))
 			textbook = row;
 	}
@@ -219,10 +75,10 @@ static double ends_at(const report_table *t, const char *map, double alpha)
 {
 	double least = 1e9, end = 0.0;
 	for (size_t row = 0; row < report_table_rows(t); row++)
-		if (is(t, row, "map", map) && is(t, row, "verb", "pdf"))
+		if (stability_is(t, row, "map", map) && stability_is(t, row, "verb", "pdf"))
 			least = fmin(least, fabs(log(report_number(t, row, "alpha") / alpha)));
 	for (size_t row = 0; row < report_table_rows(t); row++)
-		if (is(t, row, "map", map) && is(t, row, "verb", "pdf") &&
+		if (stability_is(t, row, "map", map) && stability_is(t, row, "verb", "pdf") &&
 		    fabs(log(report_number(t, row, "alpha") / alpha)) <= least + 1e-9 &&
 		    report_number(t, row, "floor_median") > 0.01)
 			end = fmax(end, report_number(t, row, "cos"));
@@ -336,7 +192,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		    "correlations to +-0.9999, directions off unit length by up to four ulp; wi mostly where the lobe "
 		    "is.\n\n");
 	write_counts(page, tables[1]);
-	write_errors(page, tables[0]);
+	stability_write_errors(page, tables[0]);
 	write_worst(page, tables[2]);
 	write_maps(page, tables[3]);
 	write_forms(page, tables[4]);

@@ -55,37 +55,45 @@ typedef struct {
 /* 1: the textbook (stability_textbook.h) has the lobe with these parameters; 0: only the double build does. */
 int stability_is_textbook(const stability_case *c);
 
-/* Cases of which error/floor says nothing about the library's arithmetic, or what its headers say already. */
+/* Why a result is above 16 floors without a defect of the library's arithmetic; each is computed from the case. */
 typedef enum {
-	STABILITY_PLAIN,
+	STABILITY_PLAIN, /* none of these: unexplained */
 	/* The floor is above a tenth of the answer: rounding the inputs decides what the answer is, and the floor, which moves
-	 * one input at a time by half an ulp, is no more than a lower limit of that. */
+	 * one input at a time by half an ulp, is no more than a lower limit of that. Of a weight also where that is so of the
+	 * density in the sampled direction: it is made of the same facet. */
 	STABILITY_UNDETERMINED,
-	/* Below 1e-30: factors underflow on the way. The error is below 1e-30 too. */
+	/* Below 1e-30 of the density's peak: factors underflow on the way. The error is as small. */
 	STABILITY_TINY,
-	/* A reflectance or transmittance R that its header (core/fresnel.h for metals, fresnel_schlick.h, airy.h) promises to some
-	 * roundings of 1, not of itself: with R's error counted in units of 2^-24 (films: 2^-22, times a quarter of an index above 4) the ratio is at most 16. Also
-	 * where the cosine to the facet that it is of, rounded at 1, decides: light leaves eta = 1000 through a cone of which
-	 * 1 - cos is 5e-7. So for sums over facets (lobes/microfacet_diffuse.h), whose cosines are exact to a rounding of 1. And so for
-	 * sampled directions: a visible normal is the sum of two points of the unit sphere, which near its rim are
-	 * opposite. */
-	STABILITY_OF_ONE,
+	/* The value is the exact answer to inputs that are off by at most two ulps each: the answer bends too much over a
+	 * rounding for the floor, which is made of its differences along one input at a time. */
+	STABILITY_BENT,
+	/* The rest is within 16 of what a rounding of something that is of the size of 1 does, which stability_of_one finds by
+	 * asking the reference again. The reflectance of a metal (core/fresnel.h promises it so) ... */
+	STABILITY_METAL,
+	STABILITY_SCHLICK,      /* ... a Schlick curve that falls (core/fresnel_schlick.h) ... */
+	STABILITY_INTERFERENCE, /* ... waves in a film, whose unit is 2^-22 (core/airy.h) ... */
+	STABILITY_INTERFACE,    /* ... reflectance or transmittance of glass ... */
+	STABILITY_COSINE, /* ... the cosine to the facet: light leaves eta = 1000 by a cone of 1 - cos = 5e-7 ... */
+	STABILITY_RIM, /* ... the two points of a sphere, opposite near its rim, that add up to a visible normal ... */
+	STABILITY_FACETS, /* ... cosines, or the smooth surface's value, in a sum over facets (microfacet_diffuse.h) ... */
+	STABILITY_LOGARITHM, /* ... the logarithm that a beta function is the exponential of (core/beta.h). */
 	STABILITY_CLASSES
 } stability_class;
 
 extern const char *const stability_class_names[STABILITY_CLASSES];
 
-/* error: |value - exact|. floor, and the part of it that the directions alone make; floor_of_one: the same with reflectances
- * counted against 1. ulp: distance of floats at the exact answer, and size, what is small against it: the
- * answer, or 1 for a direction. defined: 0 where the case asks nothing (no sample; no
+/* error: |value - exact|. floor, and the part of it that the directions alone make; floor_of_one: the same with a
+ * rounding of 1 where there is one, and of what. ulp: distance of floats at the exact answer, and size, what is small
+ * against it: the answer, or 1 for a direction. peak: at least 1; what densities are at most. defined: 0 where the case asks nothing (no sample; no
  * reference; a tilted surface that shows less than 1e-18 of itself, where densities and areas underflow). */
 typedef struct {
-	double value, exact, error, floor, floor_directions, floor_of_one, ulp, size;
+	double value, exact, error, floor, floor_directions, floor_of_one, ulp, size, peak;
+	stability_class of_one;
 	int defined;
 } stability_result;
 
-/* Why a case is above 16 floors, or STABILITY_PLAIN for one that nothing explains (or that is not above). */
-stability_class stability_explain(const stability_result *r);
+/* Why a result of c is above 16 floors, or STABILITY_PLAIN for one that nothing explains (or that is not above). */
+stability_class stability_explain(const stability_case *c, stability_verb verb, const stability_result *r);
 
 /* A lobe to measure: what of c's verb comes out. */
 typedef double (*stability_lobe)(const stability_case *c, stability_verb verb);

@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "stability_reference.h"
+#include "stability_of_one.h"
+#include "support.h"
 
 const char *const stability_verb_names[STABILITY_VERBS] = {"eval", "pdf", "weight", "direction"};
 const lobe_uint stability_kinds[STABILITY_LOBES] = {
@@ -17,7 +18,9 @@ const char *const stability_lobe_names[STABILITY_LOBES] = {
 #include "lobe/lobes/lobes.def"
 #undef LOBE_X
 };
-const char *const stability_class_names[STABILITY_CLASSES] = {"plain", "undetermined", "tiny", "of one"};
+const char *const stability_class_names[STABILITY_CLASSES] = {
+	"plain",        "undetermined", "tiny",   "bent", "metal",  "falling Schlick",
+	"interference", "interface",    "cosine", "rim",  "facets", "logarithm"};
 
 static lobe_vec3 vec3(const float w[3]) { return lobe_vec3_make(w[0], w[1], w[2]); }
 
@@ -149,7 +152,7 @@ long double stability_half_ulp(long double x)
 	return ldexpl(1.0L, e - 25 < -150 ? -150 : e - 25);
 }
 
-static long double answer(int textbook, stability_question q, const long double *x)
+long double stability_answer(int textbook, stability_question q, const long double *x)
 {
 	return textbook ? stability_exact(q, x) : (long double)stability_double_build(q, x);
 }
@@ -225,82 +228,24 @@ static int ask(const stability_case *c, stability_verb verb, stability_question 
 	return 1;
 }
 
-static double diffuse_of_one(const stability_case *c, stability_question q, const long double *x)
+/* 1/(pi |det A|), where the surface has widths. */
+static double peak_of(const stability_case *c)
 {
-	const lobe_microsurface s = stability_bsdf(c).as.microfacet_diffuse.surface;
-	const float wi[3] = {(float)x[3], (float)x[4], (float)x[5]};
-	const lobe_seen o = lobe_see(s, vec3(c->wo), 1.0f), i = lobe_see(s, vec3(wi), 1.0f);
-	const double cavity = s.masking == LOBE_MASKING_VCAVITY ? 0.5 / (double)o.z + 0.5 / (double)i.z : 0.0;
-	return (double)answer(0, q, x) * (1.0 / (double)o.sigma + 1.0 / (double)i.sigma + cavity) * 0x1p-24;
-}
-
-/* Films have GGX's surface and masking. A film of index n resonates over about n/4 bounces; a weight of its glass is a share
- * over the mean share. */
-static double film_of_one(const stability_case *c, stability_question q, const long double *x)
-{
-	const int glass = c->kind == LOBE_KIND_IRIDESCENT_DIELECTRIC;
-	const double index = glass ? c->parameter[3] / fmin(c->parameter[4], 1.0) : c->parameter[3];
-	const double unit = 0x1p-22 * fmax(1.0, 0.25 * index);
-	long double bare[STABILITY_INPUTS];
-	memcpy(bare, x, sizeof bare);
-	if (glass) {
-		bare[6 + 2] = x[6 + 4];
-		bare[6 + 3] = x[6 + 5];
-	}
-	stability_question white = q;
-	white.kind = glass ? LOBE_KIND_GGX_DIELECTRIC : LOBE_KIND_GGX_CONDUCTOR;
-	white.white = 1;
-	const double value = (double)stability_exact(white, bare);
-	if (!glass || q.verb != STABILITY_WEIGHT)
-		return unit * value;
-	white.verb = q.verb = STABILITY_PDF;
-	return unit * value * (double)stability_exact(white, bare) / stability_double_build(q, x);
-}
-
-/* What half a rounding of a reflectance of 1 does to the answer. */
-static double of_one(const stability_case *c, stability_question q, const long double *x)
-{
-	long double mirror[STABILITY_INPUTS];
+	const double *p = c->parameter;
 	switch (c->kind) {
-	case LOBE_KIND_MICROFACET_DIFFUSE:
-		return diffuse_of_one(c, q, x);
-	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
-	case LOBE_KIND_IRIDESCENT_DIELECTRIC:
-		return film_of_one(c, q, x);
+	case LOBE_KIND_LAMBERT:
+	case LOBE_KIND_MIRROR:
+	case LOBE_KIND_SMOOTH_CONDUCTOR:
+	case LOBE_KIND_SMOOTH_DIELECTRIC:
+	case LOBE_KIND_THIN_DIELECTRIC:
+		return 1.0;
 	case LOBE_KIND_MICROFACET_CONDUCTOR:
-		if (stability_is_textbook(c))
-			break;
-		memcpy(mirror, x, sizeof mirror);
-		mirror[6 + 19] = LOBE_FRESNEL_CONSTANT;
-		for (int k = 2; k < 5; k++)
-			mirror[6 + k] = 1.0L;
-		return stability_double_build(q, mirror) * 0x1p-24;
 	case LOBE_KIND_MICROFACET_DIELECTRIC:
-		if (!stability_is_textbook(c))
-			return 0.0;
-		break;
+	case LOBE_KIND_MICROFACET_DIFFUSE:
+		return fmax(1.0, 0.318309886183790672 / fabs(p[0] * p[1] - p[11] * p[12]));
 	default:
-		break;
+		return fmax(1.0, 0.318309886183790672 / (p[0] * p[1]));
 	}
-	const long double exact = stability_exact(q, x);
-	long double moved = 0.0L;
-	if (q.verb == STABILITY_DIRECTION) {
-		/* By one rounding and by four: the answer may turn round in between. */
-		for (int k = 0; k < 8; k++) {
-			const double by = k & 4 ? 4.0 : 1.0;
-			q.nudge = k & 1 ? by * 0x1p-24 : -by * 0x1p-24;
-			q.white = k >> 1 & 1;
-			moved = fmaxl(moved, fabsl(stability_exact(q, x) - exact) / (long double)by);
-		}
-		return fmax((double)moved, 0x1p-24);
-	}
-	for (int side = -1; side <= 1; side += 2) {
-		q.nudge = side * 0x1p-24;
-		moved = fmaxl(moved, fabsl(stability_exact(q, x) - exact));
-	}
-	q.nudge = 0.0;
-	q.white = 1;
-	return (double)fmaxl(moved, fabsl(stability_exact(q, x)) * 0x1p-24L);
 }
 
 stability_result stability_measure_of(stability_lobe lobe, const stability_case *c, stability_verb verb)
@@ -313,7 +258,7 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 	if (!ask(c, verb, &q, x))
 		return r;
 	const int textbook = stability_is_textbook(c);
-	const long double exact = answer(textbook, q, x);
+	const long double exact = stability_answer(textbook, q, x);
 	const size_t n = inputs_of(c, verb, at);
 	for (size_t k = 0; k < n; k++) {
 		/* A u is a cell of 2^-24 (core/warp.h), whatever its bits below that. */
@@ -323,7 +268,7 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 		for (int side = -1; side <= 1 && step > 0.0L; side += 2) {
 			x[at[k]] = old + (long double)side * step;
 			if (!outside(c->kind, x))
-				most = fmaxl(most, fabsl(answer(textbook, q, x) - exact));
+				most = fmaxl(most, fabsl(stability_answer(textbook, q, x) - exact));
 		}
 		x[at[k]] = old;
 		*(at[k] < 6 ? &directions : &parameters) += most * most;
@@ -338,7 +283,13 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 					    : 2.0 * (double)(exact == 0.0L ? 0x1p-150L : stability_half_ulp(exact));
 	r.floor = fmax((double)sqrtl(directions + parameters), 0.5 * r.ulp);
 	r.floor_directions = (double)sqrtl(directions);
-	r.floor_of_one = r.error > r.floor ? fmax(r.floor, of_one(c, q, x)) : r.floor;
+	r.floor_of_one = r.floor;
+	r.peak = peak_of(c);
+	if (r.error > r.floor) {
+		const stability_of_one one = stability_of_one_make(c, q, x);
+		r.of_one = one.cause;
+		r.floor_of_one = fmax(r.floor, one.size);
+	}
 	return r;
 }
 
@@ -358,7 +309,7 @@ double stability_own_error(const stability_case *c, stability_verb verb, const s
 
 double stability_ratio(const stability_result *r) { return r->defined ? r->error / r->floor : 0.0; }
 
-static int is_tiny(const stability_result *r) { return r->size < 1e-30 && r->value < 1e-30; }
+static int is_tiny(const stability_result *r) { return r->size < 1e-30 * r->peak && r->value < 1e-30 * r->peak; }
 static int is_undetermined(const stability_result *r) { return !(r->floor < 0.1 * r->size); }
 
 double stability_ratio_determined(const stability_result *r)
@@ -371,14 +322,57 @@ double stability_ratio_of_one(const stability_result *r)
 	return r->defined && !is_tiny(r) && !is_undetermined(r) ? r->error / r->floor_of_one : 0.0;
 }
 
-stability_class stability_explain(const stability_result *r)
+/* The facet of a weight: whether rounding the directions decides its density. */
+static int facet_is_undetermined(const stability_case *c)
+{
+	stability_case sampled = *c;
+	const lobe_vec3 wi = lobe_bsdf_sample(stability_bsdf(c), vec3(c->wo), vec3(c->u)).wi;
+	sampled.wi[0] = wi.x;
+	sampled.wi[1] = wi.y;
+	sampled.wi[2] = wi.z;
+	const stability_result r = stability_measure(&sampled, STABILITY_PDF);
+	return r.defined && is_undetermined(&r);
+}
+
+/* Answers above and below the value, at inputs moved all together by up to four half ulps: the answer is continuous, so it
+ * is the value in between. */
+static int is_bent(const stability_case *c, stability_verb verb, double value)
+{
+	enum { MOVES = 500, HALF_ULPS = 4, STREAM = 7700 };
+	stability_question q;
+	long double x[STABILITY_INPUTS], y[STABILITY_INPUTS];
+	int at[STABILITY_INPUTS], above = 0, below = 0;
+	uint64_t draw = 0;
+	if (!ask(c, verb, &q, x))
+		return 0;
+	const int textbook = stability_is_textbook(c);
+	const size_t n = inputs_of(c, verb, at);
+	for (int move = 0; move < MOVES && !(above && below); move++) {
+		memcpy(y, x, sizeof y);
+		for (size_t k = 0; k < n; k++) {
+			const double by = HALF_ULPS * (2.0 * test_bits(STREAM, draw++) * 0x1p-32 - 1.0);
+			y[at[k]] += (long double)by * stability_half_ulp(x[at[k]]);
+		}
+		const long double moved = outside(c->kind, y) ? -1.0L : stability_answer(textbook, q, y);
+		above |= moved >= (long double)value;
+		below |= moved >= 0.0L && moved <= (long double)value;
+	}
+	return above && below;
+}
+
+stability_class stability_explain(const stability_case *c, stability_verb verb, const stability_result *r)
 {
 	if (!r->defined || r->error <= STABILITY_LIMIT * r->floor)
 		return STABILITY_PLAIN;
-	return is_tiny(r)                                      ? STABILITY_TINY
-	       : is_undetermined(r)                            ? STABILITY_UNDETERMINED
-	       : r->error <= STABILITY_LIMIT * r->floor_of_one ? STABILITY_OF_ONE
-							       : STABILITY_PLAIN;
+	if (is_tiny(r))
+		return STABILITY_TINY;
+	if (is_undetermined(r))
+		return STABILITY_UNDETERMINED;
+	if (r->error <= STABILITY_LIMIT * r->floor_of_one)
+		return r->of_one;
+	if (verb == STABILITY_WEIGHT && facet_is_undetermined(c))
+		return STABILITY_UNDETERMINED;
+	return verb != STABILITY_DIRECTION && is_bent(c, verb, r->value) ? STABILITY_BENT : STABILITY_PLAIN;
 }
 
 void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size)

@@ -28,7 +28,7 @@ void stability_tally_add(stability_tally *t, const stability_case *c, stability_
 	t->compared++;
 	if (!(r->error <= STABILITY_LIMIT * r->floor)) {
 		t->above++;
-		t->classes[stability_explain(r)]++;
+		t->classes[stability_explain(c, verb, r)]++;
 	}
 	t->bins[stability_bin(ratio)]++;
 	t->bins_of_one[stability_bin(one)]++;
@@ -39,6 +39,14 @@ void stability_tally_add(stability_tally *t, const stability_case *c, stability_
 	/* How good the answer itself is: some cases, and all that would be blamed on the library. */
 	if (n % 64 == 0 || ratio > 8.0)
 		t->own_error = fmax(t->own_error, stability_own_error(c, verb, r));
+}
+
+unsigned long stability_of_one_count(const stability_tally *t)
+{
+	unsigned long n = 0;
+	for (int k = STABILITY_METAL; k < STABILITY_CLASSES; k++)
+		n += t->classes[k];
+	return n;
 }
 
 static void print_bins(const unsigned long *bins, char *text, size_t size)
@@ -61,7 +69,7 @@ static int sweep_run(int quick, size_t unit, report_rows *rows)
 	const size_t slower = kind == LOBE_KIND_MICROFACET_DIFFUSE ? 40 : 1;
 	const size_t cases = (size_t)(quick ? CASES_QUICK : CASES) / slower;
 	static const char *const references[2] = {"double build", "textbook"};
-	char bins[4096], bins_of_one[4096];
+	char bins[4096], bins_of_one[4096], classes[256];
 	stability_tally *tally = calloc(2 * STABILITY_VERBS, sizeof *tally);
 	if (!tally)
 		return -1;
@@ -82,12 +90,14 @@ static int sweep_run(int quick, size_t unit, report_rows *rows)
 				continue;
 			print_bins(t->bins, bins, sizeof bins);
 			print_bins(t->bins_of_one, bins_of_one, sizeof bins_of_one);
-			report_row(rows, "%s,%s,%s,%lu,%lu,%lu,%lu,%lu,%lu,%lu,%lu,%lu,%.6g,%.6g,%.6g,%.3g,%s,%s",
+			size_t used = 0;
+			for (int i = 0; i < STABILITY_CLASSES; i++)
+				used += (size_t)snprintf(classes + used, sizeof classes - used, "%s%lu", i ? "," : "",
+							 t->classes[i]);
+			report_row(rows, "%s,%s,%s,%lu,%lu,%lu,%lu,%lu,%s,%.6g,%.6g,%.6g,%.3g,%s,%s",
 				   stability_lobe_names[lobe], stability_verb_names[v], references[k], t->cases,
-				   t->compared, t->non_finite, t->negative, t->above, t->classes[STABILITY_PLAIN],
-				   t->classes[STABILITY_UNDETERMINED], t->classes[STABILITY_TINY],
-				   t->classes[STABILITY_OF_ONE], t->worst_ulp, t->worst, t->worst_of_one, t->own_error,
-				   bins, bins_of_one);
+				   t->compared, t->non_finite, t->negative, t->above, classes, t->worst_ulp, t->worst,
+				   t->worst_of_one, t->own_error, bins, bins_of_one);
 		}
 	free(tally);
 	return 0;
@@ -95,12 +105,12 @@ static int sweep_run(int quick, size_t unit, report_rows *rows)
 
 const report_study stability_sweep = {
 	"stability_sweep",
-	"lobe,verb,reference,cases,compared,non_finite,negative,above,unexplained,undetermined,"
-	"tiny,of_one,worst_ulp,worst,worst_of_one,own_error,bins,bins_of_one",
-	0,
-	sweep_units,
-	sweep_run,
-	NULL};
+	/* One column for each class. */
+	"lobe,verb,reference,cases,compared,non_finite,negative,above,plain,undetermined,tiny,bent,metal,"
+	"falling "
+	"Schlick,interference,interface,cosine,rim,facets,logarithm,worst_ulp,worst,worst_of_one,own_error,bins,bins_"
+	"of_one",
+	0, sweep_units, sweep_run, NULL};
 
 /* --- counts --------------------------------------------------------------------------------------------------------- */
 
@@ -181,7 +191,7 @@ static int worst_run(int quick, size_t unit, report_rows *rows)
 		   stability_verb_names[verb], names[which],
 		   stability_is_textbook(&worst) ? "textbook" : "double build", drawn, found, r.value, r.exact,
 		   r.error / r.ulp, r.floor / r.size, r.floor_directions / r.size,
-		   stability_class_names[stability_explain(&r)], text);
+		   stability_class_names[stability_explain(&worst, verb, &r)], text);
 	return 0;
 }
 

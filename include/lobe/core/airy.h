@@ -77,6 +77,19 @@ LOBE_FN lobe_film_bottom lobe_film_bottom_from_ratio(lobe_complex u, lobe_comple
 	return b;
 }
 
+/* The same of a real u, without the products by 0. */
+LOBE_FN lobe_film_bottom lobe_film_bottom_from_real(lobe_real u, lobe_complex v)
+{
+	const lobe_real sum = u + v.re, im2 = v.im * v.im;
+	const lobe_real inv = LOBE_R(1.0) / lobe_max(sum * sum + im2, LOBE_R(0x1p-80));
+	const lobe_real across = u * v.im;
+	lobe_film_bottom b;
+	b.r.re = ((v.re - u) * sum + im2) * inv;
+	b.r.im = (across + across) * inv;
+	b.t = LOBE_R(4.0) * (u * v.re) * inv;
+	return b;
+}
+
 typedef struct {
 	lobe_film_bottom s, p;
 } lobe_film_bottoms;
@@ -91,7 +104,7 @@ LOBE_FN lobe_film_bottoms lobe_film_bottoms_conductor(lobe_film_top top, lobe_re
 	const lobe_complex root = lobe_complex_make(thick ? m.big : small, thick ? small : m.big);
 	const lobe_complex n2_g = lobe_complex_make((n - k) * (n + k) * top.g, m.nk2 * top.g);
 	lobe_film_bottoms b;
-	b.s = lobe_film_bottom_from_ratio(lobe_complex_make(top.g, zero), root);
+	b.s = lobe_film_bottom_from_real(top.g, root);
 	b.p = lobe_film_bottom_from_ratio(lobe_complex_scale(root, index * index), n2_g);
 	return b;
 }

@@ -32,10 +32,16 @@ LOBE_FN lobe_real lobe_expm1(lobe_real x)
 /* (exp(x) - 1)/x, 1 at 0. */
 LOBE_FN lobe_real lobe_expm1_over(lobe_real x) { return x == LOBE_R(0.0) ? LOBE_R(1.0) : lobe_expm1(x) / x; }
 
-/* (1 + x)^-e for x >= 0 and any e, with the relative accuracy of the exponent e log(1 + x) whatever the size of e. */
+/* (1 + x)^-e for x >= 0 and any e, to a few roundings of itself however small it is: by lobe_pow, whose logarithm has more
+ * digits than a float, of u = 1 + x rounded, times (1 + rest/u)^-e for what that took away. Measured by
+ * tests/test_distributions_forms.c: 3 ulp for e to 1e5, 16 to 1.3e8. */
 LOBE_FN lobe_real lobe_decay(lobe_real x, lobe_real e)
 {
-	return e == LOBE_R(0.0) ? LOBE_R(1.0) : lobe_exp(-e * lobe_log1p(x));
+	const lobe_real one = LOBE_R(1.0);
+	const lobe_real u = one + x;
+	const lobe_real rest = x > one ? one - (u - x) : x - (u - one);
+	const lobe_real lost = x < LOBE_R(0x1p+60) ? rest / u : LOBE_R(0.0);
+	return lobe_pow(u, -e) * lobe_exp(-e * lost);
 }
 
 /* The x of (1 + x)^-e = q: q^(-1/e) - 1, given inv_e = 1/e. q in (0, 1]. */

@@ -98,9 +98,10 @@ LOBE_FN lobe_film_colour lobe_film_colour_make(lobe_film_waves w)
 	return s;
 }
 
-/* All that depends on OPD alone: S_1 to S_5, and q. */
+/* All that depends on OPD alone: S_1 to S_5, q, and 1 - Re q. */
 typedef struct {
 	lobe_film_colour s1, s2, s3, s4, s5, q;
+	lobe_rgb less_q;
 } lobe_film_series;
 
 LOBE_FN lobe_film_series lobe_film_series_make(lobe_real opd)
@@ -119,15 +120,43 @@ LOBE_FN lobe_film_series lobe_film_series_make(lobe_real opd)
 	f.q.r = w5.x.step;
 	f.q.g = w5.y.step;
 	f.q.b = w5.z.step;
+	f.less_q = lobe_rgb_make(LOBE_R(1.0) - f.q.r.re, LOBE_R(1.0) - f.q.g.re, LOBE_R(1.0) - f.q.b.re);
 	return f;
 }
 
-/* Re sum_m z^m S_m of one channel. */
-LOBE_FN lobe_real lobe_film_sum(lobe_complex z, lobe_complex s1, lobe_complex s2, lobe_complex s3, lobe_complex s4,
-				lobe_complex s5, lobe_complex q)
+/* One polarisation of one channel: z and the distance 1 - Re z, R and 1 - R of a thick film.
+ *
+ * Both interfaces of a dense film reflect nearly all, z comes near 1, and the series is as large as 1/(1 - z). Then
+ * 1 - Re z is (1 - (Re z)^2)/(1 + Re z), where 1 - (Re z)^2 = (1 - |z|^2) + (Im z)^2 is made of what T12 and T23 know. */
+typedef struct {
+	lobe_complex z;
+	lobe_real less_re, mean_r, mean_t;
+} lobe_film_terms;
+
+LOBE_FN lobe_film_terms lobe_film_terms_make(lobe_real r12, lobe_real t12, lobe_film_bottom bottom)
 {
-	const lobe_complex zq = lobe_complex_mul(z, q);
-	const lobe_complex den = lobe_complex_make(LOBE_R(1.0) - zq.re, zq.im); /* conj(1 - zq) */
+	const lobe_real one = LOBE_R(1.0);
+	const lobe_real top = r12 * r12;
+	const lobe_real lost = lobe_max(top * bottom.t + t12, LOBE_R(0x1p-60)); /* 1 - |z|^2 */
+	const lobe_real inv = one / lost;
+	lobe_film_terms f;
+	f.z = lobe_complex_scale(bottom.r, -r12);
+	const lobe_real more = one + lobe_abs(f.z.re);
+	const lobe_real less = (lost + f.z.im * f.z.im) / more;
+	f.less_re = f.z.re > LOBE_R(0.0) ? less : more;
+	f.mean_r = (top * bottom.t + lobe_complex_norm(bottom.r) * t12) * inv;
+	f.mean_t = t12 * bottom.t * inv;
+	return f;
+}
+
+/* Re sum_m z^m S_m of one channel. less_q: 1 - Re q. */
+LOBE_FN lobe_real lobe_film_sum(lobe_film_terms f, lobe_complex s1, lobe_complex s2, lobe_complex s3, lobe_complex s4,
+				lobe_complex s5, lobe_complex q, lobe_real less_q)
+{
+	const lobe_complex z = f.z;
+	/* conj(1 - zq), its real part 1 - Re z + Re z (1 - Re q) + Im z Im q */
+	const lobe_complex den =
+		lobe_complex_make(f.less_re + (z.re * less_q + z.im * q.im), z.re * q.im + z.im * q.re);
 	const lobe_real inv = LOBE_R(1.0) / lobe_max(lobe_complex_norm(den), LOBE_R(0x1p-60));
 	const lobe_complex rest = lobe_complex_scale(lobe_complex_mul(s5, den), inv);
 	lobe_complex sum = lobe_complex_add(s4, lobe_complex_mul(z, rest));
@@ -137,21 +166,15 @@ LOBE_FN lobe_real lobe_film_sum(lobe_complex z, lobe_complex s1, lobe_complex s2
 	return z.re * sum.re - z.im * sum.im;
 }
 
-/* One polarisation of one channel: R and 1 - R, before the clamp. */
-typedef struct {
-	lobe_complex z;
-	lobe_real mean_r, mean_t; /* of a thick film: R and A */
-} lobe_film_terms;
-
-LOBE_FN lobe_film_terms lobe_film_terms_make(lobe_real r12, lobe_real t12, lobe_film_bottom bottom)
+/* The same where z is real, as it is over a dielectric: of the series only the real part remains. */
+LOBE_FN lobe_real lobe_film_sum_real(lobe_film_terms f, lobe_complex s1, lobe_complex s2, lobe_complex s3,
+				     lobe_complex s4, lobe_complex s5, lobe_complex q, lobe_real less_q)
 {
-	const lobe_real top = r12 * r12;
-	const lobe_real inv = LOBE_R(1.0) / lobe_max(top * bottom.t + t12, LOBE_R(0x1p-60)); /* 1 - |z|^2 */
-	lobe_film_terms f;
-	f.z = lobe_complex_scale(bottom.r, -r12);
-	f.mean_r = (top * bottom.t + lobe_complex_norm(bottom.r) * t12) * inv;
-	f.mean_t = t12 * bottom.t * inv;
-	return f;
+	const lobe_real z = f.z.re;
+	const lobe_complex den = lobe_complex_make(f.less_re + z * less_q, z * q.im);
+	const lobe_real inv = LOBE_R(1.0) / lobe_max(lobe_complex_norm(den), LOBE_R(0x1p-60));
+	const lobe_real rest = (s5.re * den.re - s5.im * den.im) * inv;
+	return z * (s1.re + z * (s2.re + z * (s3.re + z * (s4.re + z * rest))));
 }
 
 /* Twice the transmittance (or reflectance) of unpolarised light: mean +- 2 A sum for each polarisation. */
@@ -165,8 +188,9 @@ LOBE_FN lobe_airy lobe_film_unpolarised(lobe_film_terms s, lobe_real sum_s, lobe
 	return a;
 }
 
-#define LOBE_FILM_SUM(f, channel, z)                                                                                   \
-	lobe_film_sum(z, (f).s1.channel, (f).s2.channel, (f).s3.channel, (f).s4.channel, (f).s5.channel, (f).q.channel)
+#define LOBE_FILM_SUM(sum, f, channel, terms)                                                                          \
+	sum(terms, (f).s1.channel, (f).s2.channel, (f).s3.channel, (f).s4.channel, (f).s5.channel, (f).q.channel,      \
+	    (f).less_q.channel)
 
 LOBE_FN lobe_real lobe_film_opd(lobe_film film, lobe_film_top top) { return (film.thickness + film.thickness) * top.g; }
 
@@ -184,9 +208,12 @@ LOBE_FN lobe_rgb lobe_thin_film_conductor_rgb(lobe_real c, lobe_film film, lobe_
 	const lobe_film_terms gp = lobe_film_terms_make(top.rp, top.tp, g.p);
 	const lobe_film_terms bs = lobe_film_terms_make(top.rs, top.ts, b.s);
 	const lobe_film_terms bp = lobe_film_terms_make(top.rp, top.tp, b.p);
-	const lobe_airy red = lobe_film_unpolarised(rs, LOBE_FILM_SUM(f, r, rs.z), rp, LOBE_FILM_SUM(f, r, rp.z));
-	const lobe_airy green = lobe_film_unpolarised(gs, LOBE_FILM_SUM(f, g, gs.z), gp, LOBE_FILM_SUM(f, g, gp.z));
-	const lobe_airy blue = lobe_film_unpolarised(bs, LOBE_FILM_SUM(f, b, bs.z), bp, LOBE_FILM_SUM(f, b, bp.z));
+	const lobe_airy red = lobe_film_unpolarised(rs, LOBE_FILM_SUM(lobe_film_sum, f, r, rs), rp,
+						    LOBE_FILM_SUM(lobe_film_sum, f, r, rp));
+	const lobe_airy green = lobe_film_unpolarised(gs, LOBE_FILM_SUM(lobe_film_sum, f, g, gs), gp,
+						      LOBE_FILM_SUM(lobe_film_sum, f, g, gp));
+	const lobe_airy blue = lobe_film_unpolarised(bs, LOBE_FILM_SUM(lobe_film_sum, f, b, bs), bp,
+						     LOBE_FILM_SUM(lobe_film_sum, f, b, bp));
 	return lobe_rgb_make(red.reflectance, green.reflectance, blue.reflectance);
 }
 
@@ -206,9 +233,12 @@ LOBE_FN lobe_film_fresnel lobe_thin_film_dielectric_rgb(lobe_real c, lobe_film f
 	const lobe_film_bottoms bottoms = lobe_film_bottoms_dielectric(top, film.index, eta);
 	const lobe_film_terms s = lobe_film_terms_make(top.rs, top.ts, bottoms.s);
 	const lobe_film_terms p = lobe_film_terms_make(top.rp, top.tp, bottoms.p);
-	const lobe_airy red = lobe_film_unpolarised(s, LOBE_FILM_SUM(f, r, s.z), p, LOBE_FILM_SUM(f, r, p.z));
-	const lobe_airy green = lobe_film_unpolarised(s, LOBE_FILM_SUM(f, g, s.z), p, LOBE_FILM_SUM(f, g, p.z));
-	const lobe_airy blue = lobe_film_unpolarised(s, LOBE_FILM_SUM(f, b, s.z), p, LOBE_FILM_SUM(f, b, p.z));
+	const lobe_airy red = lobe_film_unpolarised(s, LOBE_FILM_SUM(lobe_film_sum_real, f, r, s), p,
+						    LOBE_FILM_SUM(lobe_film_sum_real, f, r, p));
+	const lobe_airy green = lobe_film_unpolarised(s, LOBE_FILM_SUM(lobe_film_sum_real, f, g, s), p,
+						      LOBE_FILM_SUM(lobe_film_sum_real, f, g, p));
+	const lobe_airy blue = lobe_film_unpolarised(s, LOBE_FILM_SUM(lobe_film_sum_real, f, b, s), p,
+						     LOBE_FILM_SUM(lobe_film_sum_real, f, b, p));
 	lobe_film_fresnel r;
 	r.reflectance = lobe_rgb_make(red.reflectance, green.reflectance, blue.reflectance);
 	r.transmittance = lobe_rgb_make(red.transmittance, green.transmittance, blue.transmittance);

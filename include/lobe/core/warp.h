@@ -103,13 +103,14 @@ LOBE_FN lobe_vec2 lobe_cosine_hemisphere_inverse(lobe_vec3 w)
 }
 
 /* Point uniform over the cap radius - z <= height about +z of a sphere; height in (0, 2 radius]. u.x goes round, u.y from
- * the pole to the rim. Written in radius - z, which does not cancel. */
+ * the pole to the rim. Off the axis by the root of h (2 radius - h), h = u.y height, whose second factor is what is left of
+ * the sphere below the cap and of the cap below the point: two terms that keep their precision at the far pole. */
 LOBE_FN lobe_vec3 lobe_sphere_cap(lobe_vec2 u, lobe_real radius, lobe_real height)
 {
-	const lobe_real h = u.y * height;
-	const lobe_real s = lobe_sqrt(h * ((radius + radius) - h));
+	const lobe_real below = lobe_fma(LOBE_R(1.0) - u.y, height, (radius + radius) - height);
+	const lobe_real s = lobe_sqrt(u.y * height * below);
 	const lobe_sincos sc = lobe_sincos_2pi_small(u.x);
-	return lobe_vec3_make(s * sc.c, s * sc.s, radius - h);
+	return lobe_vec3_make(s * sc.c, s * sc.s, lobe_fma(-u.y, height, radius));
 }
 
 /* Direction uniform over the spherical cap 1 - z <= height; height in (0, 2] is 1 - cos of the cap's half angle

@@ -101,13 +101,18 @@ LOBE_FN lobe_real lobe_beckmann_t(lobe_vec3 v)
 }
 
 /* Walter's rational Lambda (2007, section 5.2), in place of hidden: an alternative that needs no exponential. It is 0
- * from c = 1.6 on, where the fit would rise again. G1 is off by at most .0031 (at c = 1.34). */
+ * from c = 1.6 on, where the fit would rise again. G1 is off by at most .0031 (at c = 1.34).
+ *
+ * The numerator, 1 - 1.259 c + .396 c^2, is written as .396 (c - 1.548133)(c - 1.631160), each root the sum of two floats: it
+ * ends at the first of them, and as a sum it would lose all its digits there. */
 LOBE_FN lobe_real lobe_beckmann_hidden_rational(lobe_vec3 v)
 {
 	const lobe_real r = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
 	const lobe_real z = lobe_abs(v.z);
 	/* |z| Lambda with c = z/r: one division. */
-	const lobe_real num = lobe_fma(r, r, z * lobe_fma(LOBE_R(0.396), z, LOBE_R(-1.259) * r));
+	const lobe_real first = lobe_fma(LOBE_R(-0x1.8c5274p+0), r, z) - LOBE_R(-0x1.3a1c96p-27) * r;
+	const lobe_real second = lobe_fma(LOBE_R(-0x1.a193bp+0), r, z) - LOBE_R(0x1.6becacp-26) * r;
+	const lobe_real num = LOBE_R(0.396) * first * second;
 	const lobe_real den = lobe_fma(LOBE_R(2.181), z, LOBE_R(3.535) * r);
 	return z < LOBE_R(1.6) * r ? num / den : LOBE_R(0.0);
 }

@@ -45,12 +45,19 @@
 #include "microsurface.h"
 #include "vcavity.h"
 
-/* van Ginneken's factor of the azimuth between o and i: 0 where they are one, .93 where opposite. */
-LOBE_FN lobe_real lobe_masking_apart(lobe_vec3 o, lobe_vec3 i)
+/* van Ginneken's factor l of the azimuth between o and i, apart: 0 where they are one, .93 where opposite; and 1 - l. */
+typedef struct {
+	lobe_real apart, together;
+} lobe_masking_azimuth;
+
+LOBE_FN lobe_masking_azimuth lobe_masking_azimuth_make(lobe_vec3 o, lobe_vec3 i)
 {
 	const lobe_real cross = lobe_abs(lobe_diff_of_products(o.x, i.y, o.y, i.x));
 	const lobe_real p = LOBE_R(4.41) * lobe_atan2(cross, lobe_fma(o.x, i.x, o.y * i.y));
-	return p / (p + LOBE_R(1.0));
+	lobe_masking_azimuth a;
+	a.together = LOBE_R(1.0) / (p + LOBE_R(1.0));
+	a.apart = p * a.together;
+	return a;
 }
 
 /* One side. With products in place of quotients by z: z_o z_i Lambda_o = h_o z_i. */
@@ -67,12 +74,12 @@ LOBE_FN lobe_real lobe_masking_smith(lobe_uint joint, lobe_seen o, lobe_seen i)
 	case LOBE_JOINT_HEIGHT:
 		return height;
 	case LOBE_JOINT_DIRECTION: {
-		const lobe_real apart = lobe_masking_apart(o.v, i.v);
+		const lobe_masking_azimuth a = lobe_masking_azimuth_make(o.v, i.v);
 		const lobe_real least = one / lobe_max(sum_o, sum_i * (o.z / i.z));
-		return lobe_fma(apart, product - least, least);
+		return lobe_fma(a.apart, product, a.together * least);
 	}
 	case LOBE_JOINT_HEIGHT_DIRECTION: {
-		const lobe_real apart = lobe_masking_apart(o.v, i.v);
+		const lobe_real apart = lobe_masking_azimuth_make(o.v, i.v).apart;
 		return i.z / lobe_fma(o.z, i.z, lobe_fma(apart, lobe_min(ho, hi), lobe_max(ho, hi)));
 	}
 	default:
@@ -96,11 +103,14 @@ LOBE_FN lobe_real lobe_masking_smith_across(lobe_uint across, lobe_seen o, lobe_
 	return LOBE_CHOSEN(across, LOBE_ONLY_ACROSS) == LOBE_ACROSS_BETA ? exact : i.z / (sum_o * (i.z + i.hides));
 }
 
+/* Across, G1(o) + G1(i) - 1 is the lesser less what is hidden of the greater, which is nothing where that sees all. */
 LOBE_FN lobe_real lobe_masking_vcavity(lobe_seen o, lobe_seen i, lobe_seen_facet m, int across)
 {
 	const lobe_real g_o = lobe_vcavity_g1_over_cos(o.z, m.o, m.z);
 	const lobe_real g_i = lobe_vcavity_g1(i.z, m.i, m.z);
-	const lobe_real common = lobe_max(g_o - (LOBE_R(1.0) - g_i) / o.z, LOBE_R(0.0));
+	const lobe_real o_less = g_o - lobe_vcavity_hidden(i.z, m.i, m.z) / o.z;
+	const lobe_real i_less = (g_i - lobe_vcavity_hidden(o.z, m.o, m.z)) / o.z;
+	const lobe_real common = lobe_max(g_o * o.z < g_i ? o_less : i_less, LOBE_R(0.0));
 	return across ? common : lobe_min(g_o, g_i / o.z);
 }
 

@@ -16,6 +16,7 @@
 #ifndef LOBE_MICROFACET_PROFILE_H
 #define LOBE_MICROFACET_PROFILE_H
 
+#include "../core/powers.h"
 #include "../core/real.h"
 #include "../core/table.h"
 #include "../core/vec.h"
@@ -103,19 +104,24 @@ LOBE_FN lobe_real lobe_profile_fall_rate(lobe_profile_piece c, lobe_real p)
 	return lobe_max(rate, LOBE_R(0.0));
 }
 
-LOBE_FN lobe_real lobe_profile_place(lobe_profile_piece c, lobe_real x) { return lobe_log(x / c.x) / c.width; }
+/* The place of X = 1 + x in it: log(X/c.x)/width, whose logarithm keeps the digits that X loses to its 1. */
+LOBE_FN lobe_real lobe_profile_place(lobe_profile_piece c, lobe_real x)
+{
+	return lobe_log1p((x - (c.x - LOBE_R(1.0))) / c.x) / c.width;
+}
 
+/* At X = 1 + x. */
 LOBE_FN lobe_real lobe_profile_curve(lobe_table t, lobe_uint curve, lobe_real x)
 {
-	const lobe_profile_piece c = lobe_profile_piece_at(t, curve, lobe_profile_find(t, curve, x));
+	const lobe_profile_piece c = lobe_profile_piece_at(t, curve, lobe_profile_find(t, curve, LOBE_R(1.0) + x));
 	return c.value * lobe_exp(-lobe_profile_fall(c, lobe_profile_place(c, x)));
 }
 
-/* tan^2 in units of t0 that are numbers, for h.z = 0 too. */
+/* X - 1: tan^2 in units of t0, which are numbers for h.z = 0 too. */
 LOBE_FN lobe_real lobe_profile_x(lobe_table t, lobe_real t2)
 {
-	return lobe_fma(lobe_min(t2, LOBE_R(1e+36) * lobe_table_fetch(t, LOBE_PROFILE_T0)),
-			lobe_table_fetch(t, LOBE_PROFILE_INV_T0), LOBE_R(1.0));
+	return lobe_min(t2, LOBE_R(1e+36) * lobe_table_fetch(t, LOBE_PROFILE_T0)) *
+	       lobe_table_fetch(t, LOBE_PROFILE_INV_T0);
 }
 
 /* Q at tan^2 = t2. */
@@ -153,8 +159,8 @@ LOBE_FN lobe_real lobe_profile_hidden(lobe_table t, lobe_vec3 v)
 {
 	const lobe_real s = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
 	const lobe_real z = lobe_abs(v.z) * lobe_table_fetch(t, LOBE_PROFILE_INV_R0) / s;
-	const lobe_real x = LOBE_R(1.0) + lobe_min(z, LOBE_R(1e+36));
-	return s > LOBE_R(0.0) ? s * lobe_profile_curve(t, LOBE_PROFILE_HIDDEN, x) : LOBE_R(0.0);
+	const lobe_real curve = lobe_profile_curve(t, LOBE_PROFILE_HIDDEN, lobe_min(z, LOBE_R(1e+36)));
+	return s > LOBE_R(0.0) ? s * curve : LOBE_R(0.0);
 }
 
 /* density(h) of facet.h, as the exact derivative of the interpolated tail: -dQ/d tan^2 = pi P22. So the density, the tail
@@ -164,14 +170,15 @@ LOBE_FN lobe_facet_density lobe_profile_density(lobe_table t, lobe_vec3 h)
 	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y);
 	const lobe_real z2 = h.z * h.z;
 	const lobe_real x = lobe_profile_x(t, r2 / z2);
+	const lobe_real whole = LOBE_R(1.0) + x;
 	const lobe_profile_piece c =
-		lobe_profile_piece_at(t, LOBE_PROFILE_TAIL, lobe_profile_find(t, LOBE_PROFILE_TAIL, x));
+		lobe_profile_piece_at(t, LOBE_PROFILE_TAIL, lobe_profile_find(t, LOBE_PROFILE_TAIL, whole));
 	const lobe_real p = lobe_profile_place(c, x);
 	const lobe_real rate = lobe_profile_fall_rate(c, p) / c.width;
 	const lobe_real inv_t0 = lobe_table_fetch(t, LOBE_PROFILE_INV_T0);
 	lobe_facet_density d;
 	d.inv = LOBE_R(1.0) / lobe_fma(r2, inv_t0, z2);
-	d.factor = c.value * lobe_exp(-lobe_profile_fall(c, p)) * rate * inv_t0 * x;
+	d.factor = c.value * lobe_exp(-lobe_profile_fall(c, p)) * rate * inv_t0 * whole;
 	return d;
 }
 

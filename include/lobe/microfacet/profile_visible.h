@@ -84,7 +84,7 @@ LOBE_FN lobe_real lobe_profile_steep_ring(lobe_table t, lobe_real above, lobe_re
 {
 	const lobe_real t0 = lobe_table_fetch(t, LOBE_PROFILE_T0);
 	const lobe_real x = lobe_profile_x(t, z * z);
-	const lobe_uint first = lobe_profile_find(t, LOBE_PROFILE_TAIL, x);
+	const lobe_uint first = lobe_profile_find(t, LOBE_PROFILE_TAIL, LOBE_R(1.0) + x);
 	lobe_uint i = 0u, node = 1u;
 	lobe_real tail = LOBE_R(0.0);
 	for (lobe_uint step = LOBE_PROFILE_LEAVES / 2; step > 0u; step >>= 1) {

@@ -26,6 +26,13 @@ LOBE_FN lobe_real lobe_vcavity_g1(lobe_real z, lobe_real facing, lobe_real m_z)
 	return lobe_min(z, facing) > LOBE_R(0.0) ? g : LOBE_R(0.0);
 }
 
+/* What is not seen of it, 1 - G1(v, m), which does not cancel: the share of the side that the other one, facing away, covers.
+ * Where v sees nothing of the side this means nothing. */
+LOBE_FN lobe_real lobe_vcavity_hidden(lobe_real z, lobe_real facing, lobe_real m_z)
+{
+	return lobe_max(lobe_fma(-(m_z + m_z), z, facing), LOBE_R(0.0)) / facing;
+}
+
 /* A side m of a cavity whose sides are drawn with density D(m) m.z, or the other side instead, by their visible areas:
  * v.m + v.m' = 2 v.z m.z while both face v, so that m comes with density G1(v, m) max(0, v.m) D(m)/z. choice in [0,1);
  * rest: what is left of it as a random number. */
