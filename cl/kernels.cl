@@ -5,7 +5,8 @@
  *
  *	lobe_kernel_<lobe>_<verb>_one	table[0] for every element
  *	lobe_kernel_<lobe>_<verb>_many	table[slot[material[element]]]
- *	lobe_kernel_<lobe>_<verb>_mixed	the same, for the elements that order[] lists: those of this lobe
+ *	lobe_kernel_<lobe>_<verb>_mixed	the same, for the elements that order[] lists: those of this lobe; only where
+ *					LOBE_MIXED is 1: the scene has several
  *
  * Each runs the indices [first, last), LOBE_RUN of them in one work-item. On a GPU that is 1, so that adjacent
  * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor it is
@@ -20,6 +21,9 @@
 
 #ifndef LOBE_RUN
 #define LOBE_RUN 1
+#endif
+#ifndef LOBE_MIXED
+#define LOBE_MIXED 1
 #endif
 
 #define LOBE_NO_SLOT 0xFFFFFFFFu
@@ -97,19 +101,36 @@
 
 /* --- kernels --- */
 
-#define LOBE_KERNELS(lobe, verb, form)                                                                                      \
-	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_one(ulong first, ulong last,                                       \
-							LOBE_TABLE_##form(lobe),                    \
-							LOBE_ARRAYS_##verb)                                            \
+#if LOBE_MIXED
+#define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                   \
+		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                                      \
+		__global const uint *restrict slot, __global const uint *restrict material,                            \
+		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
+	{                                                                                                              \
+		LOBE_FOR(i) {                                                                                          \
+			const ulong e = base + order[i];                                                               \
+			const bool ok = true;                                                                          \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, slot[material[e]]);                                 \
+			LOBE_BODY_##verb(lobe)                                                                         \
+		}                                                                                                      \
+	}
+#else
+#define LOBE_KERNEL_MIXED(lobe, verb, form)
+#endif
+
+#define LOBE_KERNELS(lobe, verb, form)                                                                                 \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_one(ulong first, ulong last, LOBE_TABLE_##form(lobe),    \
+								  LOBE_ARRAYS_##verb)                                  \
 	{                                                                                                              \
 		LOBE_FOR(e) {                                                                                          \
 			const bool ok = true;                                                                          \
-			const lobe_##lobe p = LOBE_AT_##form(lobe, 0);                                                                \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, 0);                                                 \
 			LOBE_BODY_##verb(lobe)                                                                         \
 		}                                                                                                      \
 	}                                                                                                              \
-	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_many(                                                              \
-		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                   \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_many(                                                    \
+		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                                      \
 		__global const uint *restrict slot, uint slot_count, __global const uint *restrict material,           \
 		LOBE_ARRAYS_##verb)                                                                                    \
 	{                                                                                                              \
@@ -117,22 +138,11 @@
 			const uint m = material[e];                                                                    \
 			const uint place = slot[m < slot_count ? m : 0u];                                              \
 			const bool ok = (m < slot_count) & (place != LOBE_NO_SLOT);                                    \
-			const lobe_##lobe p = LOBE_AT_##form(lobe, ok ? place : 0u);                                                  \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, ok ? place : 0u);                                   \
 			LOBE_BODY_##verb(lobe)                                                                         \
 		}                                                                                                      \
 	}                                                                                                              \
-	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                             \
-		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                   \
-		__global const uint *restrict slot, __global const uint *restrict material,                            \
-		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
-	{                                                                                                              \
-		LOBE_FOR(i) {                                                                                          \
-			const ulong e = base + order[i];                                                               \
-			const bool ok = true;                                                                          \
-			const lobe_##lobe p = LOBE_AT_##form(lobe, slot[material[e]]);                                                \
-			LOBE_BODY_##verb(lobe)                                                                         \
-		}                                                                                                      \
-	}
+	LOBE_KERNEL_MIXED(lobe, verb, form)
 
 #define LOBE_KERNELS_OF(lobe, form)                                                                                    \
 	LOBE_KERNELS(lobe, eval_f, form)                                                                               \
@@ -153,9 +163,11 @@ __kernel void lobe_kernel_zero(ulong first, ulong last, __global uint *restrict 
 		out[e] = 0u;
 }
 
+#if LOBE_MIXED
 __kernel void lobe_kernel_zero_mixed(ulong first, ulong last, __global const uint *restrict order, ulong base,
 				     __global uint *restrict out)
 {
 	LOBE_FOR(i)
 		out[base + order[i]] = 0u;
 }
+#endif
