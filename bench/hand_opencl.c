@@ -114,7 +114,7 @@ static int make_kernel(work *w, lobe_ggx_conductor *p)
 	cl_uint at = 0;
 	const cl_ulong n = w->n;
 	w->cl->clGetDeviceInfo(w->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
-	w->run = type & CL_DEVICE_TYPE_CPU ? 1024 : 1;
+	w->run = type & CL_DEVICE_TYPE_CPU ? 16384 : 1;
 	w->local = w->run > 1 ? 1 : 128;
 	snprintf(options, sizeof options, "%s -DRUN=%zu", lobe_opencl_options(w->scene), w->run);
 	w->program = w->cl->clCreateProgramWithSource(w->context, 2, (const char **)(uintptr_t)source, NULL, &error);

@@ -10,8 +10,8 @@
  * the last only where LOBE_MIXED is 1: the scene has several lobes.
  *
  * Each runs the indices [first, last), LOBE_RUN of them in one work-item. On a GPU that is 1, so that adjacent
- * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor it is
- * many and the groups hold one work-item: then the compiler sees an ordinary loop and vectorises it, as it does the
+ * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor, where
+ * LOBE_LOOPS is 1, it is the argument run, many, and the groups hold one work-item: then the compiler sees an ordinary loop and vectorises it, as it does the
  * native ones. (PoCL 3.1 would rather not: left to loop over work-items itself, it first packs the three colours of one
  * element into a vector, and gives up on every body with a guard in it. That is 5 to 20 times slower.)
  *
@@ -20,8 +20,13 @@
  *
  * src/opencl_launch.c sets the arguments in the order in which they stand here. */
 
-#ifndef LOBE_RUN
-#define LOBE_RUN 1
+#ifndef LOBE_LOOPS
+#define LOBE_LOOPS 0
+#endif
+#if LOBE_LOOPS
+#define LOBE_RUN run
+#else
+#define LOBE_RUN (ulong)1
 #endif
 #ifndef LOBE_MIXED
 #define LOBE_MIXED 1
@@ -44,8 +49,8 @@
 
 /* The loop of one work-item over its share of [first, last). */
 #define LOBE_FOR(i)                                                                                                    \
-	const ulong begin = first + get_global_id(0) * (ulong)LOBE_RUN;                                                \
-	const ulong end = min(begin + (ulong)LOBE_RUN, last);                                                          \
+	const ulong begin = first + get_global_id(0) * LOBE_RUN;                                                       \
+	const ulong end = min(begin + LOBE_RUN, last);                                                                 \
 	LOBE_LOOP for (ulong i = begin; i < end; i++)
 
 #define LOBE_INPUT(a) __global const float *restrict a##_x, __global const float *restrict a##_y, \
@@ -105,7 +110,7 @@
 #if LOBE_MIXED
 #define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
 	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                   \
-		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                                      \
+		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
 		__global const uint *restrict slot, __global const uint *restrict material,                            \
 		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
 	{                                                                                                              \
@@ -121,8 +126,8 @@
 #endif
 
 #define LOBE_KERNELS(lobe, verb, form)                                                                                 \
-	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_one(ulong first, ulong last, LOBE_TABLE_##form(lobe),    \
-								  LOBE_ARRAYS_##verb)                                  \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_one(                                                     \
+		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe), LOBE_ARRAYS_##verb)                       \
 	{                                                                                                              \
 		LOBE_FOR(e) {                                                                                          \
 			const bool ok = true;                                                                          \
@@ -131,7 +136,7 @@
 		}                                                                                                      \
 	}                                                                                                              \
 	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_many(                                                    \
-		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                                      \
+		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
 		__global const uint *restrict slot, uint slot_count, __global const uint *restrict material,           \
 		LOBE_ARRAYS_##verb)                                                                                    \
 	{                                                                                                              \
@@ -158,15 +163,15 @@
 #undef LOBE_X
 
 /* Elements whose material is LOBE_KIND_NONE: 0, whose bits are the same for every type. */
-__kernel void lobe_kernel_zero(ulong first, ulong last, __global uint *restrict out)
+__kernel void lobe_kernel_zero(ulong first, ulong last, ulong run, __global uint *restrict out)
 {
 	LOBE_FOR(e)
 		out[e] = 0u;
 }
 
 #if LOBE_MIXED
-__kernel void lobe_kernel_zero_mixed(ulong first, ulong last, __global const uint *restrict order, ulong base,
-				     __global uint *restrict out)
+__kernel void lobe_kernel_zero_mixed(ulong first, ulong last, ulong run, __global const uint *restrict order,
+				     ulong base, __global uint *restrict out)
 {
 	LOBE_FOR(i)
 		out[base + order[i]] = 0u;

@@ -49,8 +49,7 @@ static lobe_status build(lobe_cl_device *device, lobe_cl_program *p, int mixed)
 	const char *source[3];
 	char switches[64];
 	lobe_status status = LOBE_OK;
-	snprintf(switches, sizeof switches, "#define LOBE_RUN %lu\n#define LOBE_MIXED %d\n", (unsigned long)device->run,
-		 mixed);
+	snprintf(switches, sizeof switches, "#define LOBE_LOOPS %d\n#define LOBE_MIXED %d\n", device->loops, mixed);
 	source[0] = lobe_opencl_source();
 	source[1] = switches;
 	source[2] = lobe_opencl_kernels();
