@@ -13,8 +13,8 @@ typedef struct {
 } bench_build_figure;
 
 /* The highest of all scenes of one lobe. share: the cold build, in percent of that of the scene of all lobes; without
- * the first launch, which compiles as many kernels in either. cached, kept: the build and the first launch in
- * a second process, in milliseconds: from what the runtime keeps by itself, from what lobe does. */
+ * the first launch, which compiles as many kernels in either. cached, kept: the build and the first launch in a second
+ * process, in milliseconds: from what the runtime keeps by itself, from what lobe does. */
 typedef struct {
 	bench_build_figure share, cached, kept;
 } bench_build_highest;

@@ -11,9 +11,10 @@
  *
  * Each runs the indices [first, last), LOBE_RUN of them in one work-item. On a GPU that is 1, so that adjacent
  * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor, where
- * LOBE_LOOPS is 1, it is the argument run, many, and the groups hold one work-item: then the compiler sees an ordinary loop and vectorises it, as it does the
- * native ones. (PoCL 3.1 would rather not: left to loop over work-items itself, it first packs the three colours of one
- * element into a vector, and gives up on every body with a guard in it. That is 5 to 20 times slower.)
+ * LOBE_LOOPS is 1, it is the argument run, many, and the groups hold one work-item: then the compiler sees an ordinary
+ * loop and vectorises it, as it does the native ones. (PoCL 3.1 would rather not: left to loop over work-items itself, it
+ * first packs the three colours of one element into a vector, and gives up on every body with a guard in it. That is 5 to
+ * 20 times slower.)
  *
  * The loop's body has no branch. In "many" a material without a lobe (slot LOBE_NO_SLOT) or out of range shades with
  * table[0] and the result is replaced by 0.
@@ -34,8 +35,8 @@
 
 #define LOBE_NO_SLOT 0xFFFFFFFFu
 
-/* For AVX-512, clang (PoCL's compiler) would take vectors of half its registers' width, and of those one at a time. Whole
- * ones take two thirds of the time, and two in flight half of it, since an element is one long chain of dependent
+/* For AVX-512, clang (PoCL's compiler) would take vectors of half its registers' width, and of those one at a time.
+ * Whole ones take two thirds of the time, and two in flight half of it, since an element is one long chain of dependent
  * operations (samples of ggx_dielectric on Zen 4: 10.7, 6.9 and 5.4 ns). Elsewhere the compiler chooses: with AVX2 its
  * vectors are whole. It passes over a loop twice and warns when the first pass has left it alone. */
 #if defined(__clang__) && defined(__AVX512VL__)
