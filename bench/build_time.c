@@ -70,7 +70,8 @@ int bench_build_child(char **arguments)
 }
 
 /* Runs the child and reads its times. Without a shell, so that program and cache may have any name. */
-static int run_child(const char *program, const char *cache, const char *kept, const char *device, int lobe, double *time)
+static int run_child(const char *program, const char *cache, const char *kept, const char *device, int lobe,
+		     double *time)
 {
 	char number[16], output[256];
 	int ends[2], status = 1;
@@ -190,8 +191,27 @@ static int measure(const char *program, const char *device, int lobe, size_t run
 	return 1;
 }
 
+static void take_highest(bench_build_figure *f, const bench_device *d, int lobe, double value)
+{
+	if (!f->device || value > f->value)
+		*f = (bench_build_figure){lobe, d, value};
+}
+
+/* coldest: of the device's scenes of one lobe the one that builds longest, in milliseconds. */
+static void add_to_highest(bench_build_highest *h, bench_build_figure *coldest, const bench_device *d, int lobe,
+			   const build_times *t)
+{
+	if (lobe < BENCH_LOBES) {
+		take_highest(coldest, d, lobe, t->create[COLD]);
+		take_highest(&h->cached, d, lobe, t->create[CACHED] + t->launch[CACHED]);
+		take_highest(&h->kept, d, lobe, t->create[KEPT] + t->launch[KEPT]);
+	} else if (lobe == BENCH_LOBES && coldest->device) {
+		take_highest(&h->share, d, coldest->lobe, 100.0 * coldest->value / t->create[COLD]);
+	}
+}
+
 /* One scene on one device. */
-static int row(const char *program, const bench_device *d, int lobe, size_t runs, FILE *csv)
+static int row(const char *program, const bench_device *d, int lobe, size_t runs, FILE *csv, build_times *out)
 {
 	build_times t;
 	lobe_scene *scene;
@@ -209,11 +229,12 @@ static int row(const char *program, const bench_device *d, int lobe, size_t runs
 	fprintf(csv, ",%.4f,%.0f,%.0f,%zu,%s\n", t.again, t.cache_bytes, t.kept_bytes, strlen(lobe_opencl_source()),
 		lobe_opencl_options(scene));
 	lobe_scene_destroy(scene);
+	*out = t;
 	return 1;
 }
 
 int bench_build_times(const char *program, const bench_device *devices, int count, int lobe, size_t runs,
-		      double seconds, const char *path)
+		      double seconds, const char *path, bench_build_highest *highest)
 {
 	const double start = bench_now();
 	FILE *csv = bench_create_file(path);
@@ -237,13 +258,18 @@ int bench_build_times(const char *program, const bench_device *devices, int coun
 	for (int k = 0; k < STARTS; k++)
 		fprintf(csv, ",%s_create_ms,%s_launch_ms", start_name[k], start_name[k]);
 	fputs(",again_ms,cache_bytes,kept_bytes,source_bytes,options\n", csv);
-	for (int d = 0; d < count; d++)
+	for (int d = 0; d < count; d++) {
+		bench_build_figure coldest = {0, NULL, 0.0};
 		for (int i = 0; ok && i <= BENCH_OPEN; i++)
 			if (bench_is_opencl(&devices[d]) && (lobe < 0 || lobe == i)) {
 				const size_t all = runs < RUNS_MAX ? runs : RUNS_MAX;
-				ok = row(program, &devices[d], i, bench_now() - start < seconds ? all : 1, csv);
+				build_times t;
+				ok = row(program, &devices[d], i, bench_now() - start < seconds ? all : 1, csv, &t);
+				if (ok)
+					add_to_highest(highest, &coldest, &devices[d], i, &t);
 				rows += ok;
 			}
+	}
 	if (ok && rows == 0)
 		puts("(no OpenCL device)");
 	return fclose(csv) == 0 && ok;

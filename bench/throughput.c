@@ -133,6 +133,7 @@ int main(int argc, char **argv)
 	bench_device devices[BENCH_DEVICES_MAX];
 	bench_results results = {NULL, 0};
 	bench_mixed_results mixed = {.count = 0};
+	bench_build_highest build = {{0}, {0}, {0}};
 	int ok = 1;
 	if (argc == 6 && strcmp(argv[1], "--build-child") == 0)
 		return bench_build_child(argv + 2);
@@ -169,11 +170,11 @@ int main(int argc, char **argv)
 		ok = ok && bench_scaling(o.lobe < 0 ? BENCH_LOBE_GGX_CONDUCTOR : o.lobe, o.runs, scaling_most(&o),
 					 scaling_csv);
 	if (o.build)
-		ok = ok && bench_build_times(argv[0], devices, count, o.lobe, o.quick ? 1 : 3, 25.0, build_csv);
+		ok = ok && bench_build_times(argv[0], devices, count, o.lobe, o.quick ? 1 : 3, 25.0, build_csv, &build);
 	if (o.pruning)
 		ok = ok && bench_pruning(&plan, &results, library, pruning_csv);
 	if (ok)
-		bench_print_targets(&plan, &results, &mixed);
+		bench_print_targets(&plan, &results, &mixed, &build);
 	free(library);
 	free(objects);
 	free(build_csv);

@@ -7,28 +7,52 @@
  *	lobe_kernel_<lobe>_<verb>_many	table[slot[material[element]]]
  *	lobe_kernel_<lobe>_<verb>_mixed	the same, for the elements that order[] lists: those of this lobe
  *
+ * the last only where LOBE_MIXED is 1: the scene has several lobes.
+ *
  * Each runs the indices [first, last), LOBE_RUN of them in one work-item. On a GPU that is 1, so that adjacent
- * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor it is
- * many and the groups hold one work-item: then the compiler sees an ordinary loop and vectorises it, as it does the
- * native ones. (PoCL 3.1 would rather not: left to loop over work-items itself, it first packs the three colours of one
- * element into a vector, and gives up on every body with a guard in it. That is 5 to 20 times slower.)
+ * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor, where
+ * LOBE_LOOPS is 1, it is the argument run, many, and the groups hold one work-item: then the compiler sees an ordinary
+ * loop and vectorises it, as it does the native ones. (PoCL 3.1 would rather not: left to loop over work-items itself, it
+ * first packs the three colours of one element into a vector, and gives up on every body with a guard in it. That is 5 to
+ * 20 times slower.)
  *
  * The loop's body has no branch. In "many" a material without a lobe (slot LOBE_NO_SLOT) or out of range shades with
  * table[0] and the result is replaced by 0.
  *
  * src/opencl_launch.c sets the arguments in the order in which they stand here. */
 
-#ifndef LOBE_RUN
-#define LOBE_RUN 1
+#ifndef LOBE_LOOPS
+#define LOBE_LOOPS 0
+#endif
+#if LOBE_LOOPS
+#define LOBE_RUN run
+#else
+#define LOBE_RUN (ulong)1
+#endif
+#ifndef LOBE_MIXED
+#define LOBE_MIXED 1
 #endif
 
 #define LOBE_NO_SLOT 0xFFFFFFFFu
 
+/* For AVX-512, clang (PoCL's compiler) would take vectors of half its registers' width, and of those one at a time.
+ * Whole ones take two thirds of the time, and two in flight half of it, since an element is one long chain of dependent
+ * operations (samples of ggx_dielectric on Zen 4: 10.7, 6.9 and 5.4 ns). Elsewhere the compiler chooses: with AVX2 its
+ * vectors are whole. It passes over a loop twice and warns when the first pass has left it alone. */
+#if defined(__clang__) && defined(__AVX512VL__)
+#pragma clang diagnostic ignored "-Wpass-failed"
+#define LOBE_WIDE __attribute__((min_vector_width(512)))
+#define LOBE_LOOP _Pragma("clang loop vectorize_width(16) interleave_count(2)")
+#else
+#define LOBE_WIDE
+#define LOBE_LOOP
+#endif
+
 /* The loop of one work-item over its share of [first, last). */
 #define LOBE_FOR(i)                                                                                                    \
-	const ulong begin = first + get_global_id(0) * (ulong)LOBE_RUN;                                                \
-	const ulong end = min(begin + (ulong)LOBE_RUN, last);                                                          \
-	for (ulong i = begin; i < end; i++)
+	const ulong begin = first + get_global_id(0) * LOBE_RUN;                                                       \
+	const ulong end = min(begin + LOBE_RUN, last);                                                                 \
+	LOBE_LOOP for (ulong i = begin; i < end; i++)
 
 #define LOBE_INPUT(a) __global const float *restrict a##_x, __global const float *restrict a##_y, \
 		      __global const float *restrict a##_z
@@ -84,19 +108,36 @@
 
 /* --- kernels --- */
 
-#define LOBE_KERNELS(lobe, verb, form)                                                                                      \
-	__kernel void lobe_kernel_##lobe##_##verb##_one(ulong first, ulong last,                                       \
-							LOBE_TABLE_##form(lobe),                    \
-							LOBE_ARRAYS_##verb)                                            \
+#if LOBE_MIXED
+#define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                   \
+		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
+		__global const uint *restrict slot, __global const uint *restrict material,                            \
+		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
+	{                                                                                                              \
+		LOBE_FOR(i) {                                                                                          \
+			const ulong e = base + order[i];                                                               \
+			const bool ok = true;                                                                          \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, slot[material[e]]);                                 \
+			LOBE_BODY_##verb(lobe)                                                                         \
+		}                                                                                                      \
+	}
+#else
+#define LOBE_KERNEL_MIXED(lobe, verb, form)
+#endif
+
+#define LOBE_KERNELS(lobe, verb, form)                                                                                 \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_one(                                                     \
+		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe), LOBE_ARRAYS_##verb)                       \
 	{                                                                                                              \
 		LOBE_FOR(e) {                                                                                          \
 			const bool ok = true;                                                                          \
-			const lobe_##lobe p = LOBE_AT_##form(lobe, 0);                                                                \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, 0);                                                 \
 			LOBE_BODY_##verb(lobe)                                                                         \
 		}                                                                                                      \
 	}                                                                                                              \
-	__kernel void lobe_kernel_##lobe##_##verb##_many(                                                              \
-		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                   \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_many(                                                    \
+		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
 		__global const uint *restrict slot, uint slot_count, __global const uint *restrict material,           \
 		LOBE_ARRAYS_##verb)                                                                                    \
 	{                                                                                                              \
@@ -104,22 +145,11 @@
 			const uint m = material[e];                                                                    \
 			const uint place = slot[m < slot_count ? m : 0u];                                              \
 			const bool ok = (m < slot_count) & (place != LOBE_NO_SLOT);                                    \
-			const lobe_##lobe p = LOBE_AT_##form(lobe, ok ? place : 0u);                                                  \
+			const lobe_##lobe p = LOBE_AT_##form(lobe, ok ? place : 0u);                                   \
 			LOBE_BODY_##verb(lobe)                                                                         \
 		}                                                                                                      \
 	}                                                                                                              \
-	__kernel void lobe_kernel_##lobe##_##verb##_mixed(                                                             \
-		ulong first, ulong last, LOBE_TABLE_##form(lobe),                                   \
-		__global const uint *restrict slot, __global const uint *restrict material,                            \
-		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
-	{                                                                                                              \
-		LOBE_FOR(i) {                                                                                          \
-			const ulong e = base + order[i];                                                               \
-			const bool ok = true;                                                                          \
-			const lobe_##lobe p = LOBE_AT_##form(lobe, slot[material[e]]);                                                \
-			LOBE_BODY_##verb(lobe)                                                                         \
-		}                                                                                                      \
-	}
+	LOBE_KERNEL_MIXED(lobe, verb, form)
 
 #define LOBE_KERNELS_OF(lobe, form)                                                                                    \
 	LOBE_KERNELS(lobe, eval_f, form)                                                                               \
@@ -134,15 +164,17 @@
 #undef LOBE_X
 
 /* Elements whose material is LOBE_KIND_NONE: 0, whose bits are the same for every type. */
-__kernel void lobe_kernel_zero(ulong first, ulong last, __global uint *restrict out)
+__kernel void lobe_kernel_zero(ulong first, ulong last, ulong run, __global uint *restrict out)
 {
 	LOBE_FOR(e)
 		out[e] = 0u;
 }
 
-__kernel void lobe_kernel_zero_mixed(ulong first, ulong last, __global const uint *restrict order, ulong base,
-				     __global uint *restrict out)
+#if LOBE_MIXED
+__kernel void lobe_kernel_zero_mixed(ulong first, ulong last, ulong run, __global const uint *restrict order,
+				     ulong base, __global uint *restrict out)
 {
 	LOBE_FOR(i)
 		out[base + order[i]] = 0u;
 }
+#endif

@@ -7,9 +7,8 @@
 
 #include "opencl_device.h"
 
-/* Elements that one work-item of a processor shades (64 cost it 10 %, more gain nothing), and work-items in a group of
- * any other device. See cl/kernels.cl. */
-enum { CPU_RUN = 1024, GPU_LOCAL = 128 };
+/* Work-items in a group of a device other than a processor. See cl/kernels.cl. */
+enum { GPU_LOCAL = 128 };
 
 /* One device in the numbering over all platforms. */
 typedef struct {
@@ -129,6 +128,7 @@ static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 	size_t max_local = 1;
 	cl_bool available = CL_FALSE, compiler = CL_FALSE, little = CL_FALSE, unified = CL_FALSE;
 	cl_ulong max_size = 0, memory = 0;
+	cl_uint units = 1;
 	char platform_name[1024] = "", device_name[1024] = "";
 	const struct {
 		cl_uint what;
@@ -144,7 +144,8 @@ static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 		     {CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified},
 		     {CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof max_size, &max_size},
 		     {CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory},
-		     {CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof max_local, &max_local}};
+		     {CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof max_local, &max_local},
+		     {CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units}};
 	const uint32_t one = 1;
 	cl_int error = CL_SUCCESS;
 	size_t i;
@@ -172,8 +173,9 @@ static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 					 device->base.name, needed[i].name);
 	}
 	device->unified = unified == CL_TRUE;
-	device->run = type & CL_DEVICE_TYPE_CPU ? CPU_RUN : 1;
-	device->local = device->run > 1 ? 1 : GPU_LOCAL;
+	device->loops = (type & CL_DEVICE_TYPE_CPU) != 0;
+	device->units = units ? units : 1;
+	device->local = device->loops ? 1 : GPU_LOCAL;
 	while (device->local > max_local)
 		device->local /= 2;
 	device->max_count = elements(max_size);

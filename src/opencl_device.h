@@ -56,7 +56,8 @@ typedef struct {
 	cl_context context;
 	cl_device_id id;
 	int unified;       /* shares its memory with the host: batches need no copies */
-	size_t run;        /* elements in a work-item, LOBE_RUN of cl/kernels.cl */
+	int loops;         /* a processor: a work-item shades many elements, LOBE_LOOPS of cl/kernels.cl */
+	size_t units;      /* that run work-items */
 	size_t local;      /* work-items in a group */
 	size_t max_count;  /* elements of 4 bytes in a buffer */
 	size_t copy_count; /* elements of a chunk of which a lane's buffers take a quarter of the device's memory */

@@ -43,15 +43,15 @@ static lobe_status build_source(lobe_cl_device *device, const char *source[3], c
 	return LOBE_OK;
 }
 
-/* From the cache, else from source and into the cache. */
-static lobe_status build(lobe_cl_device *device, lobe_cl_program *p)
+/* From the cache, else from source and into the cache. mixed: with the kernels for batches of several lobes. */
+static lobe_status build(lobe_cl_device *device, lobe_cl_program *p, int mixed)
 {
 	const char *source[3];
-	char run[64];
+	char switches[64];
 	lobe_status status = LOBE_OK;
-	snprintf(run, sizeof run, "#define LOBE_RUN %lu\n", (unsigned long)device->run);
+	snprintf(switches, sizeof switches, "#define LOBE_LOOPS %d\n#define LOBE_MIXED %d\n", device->loops, mixed);
 	source[0] = lobe_opencl_source();
-	source[1] = run;
+	source[1] = switches;
 	source[2] = lobe_opencl_kernels();
 	lobe_cl_binary_find_key(device, p, source);
 	lobe_cl_binary_load(device, p);
@@ -67,8 +67,8 @@ static lobe_status build(lobe_cl_device *device, lobe_cl_program *p)
 	return status;
 }
 
-/* The device's program of these options, built when it is the first. */
-static lobe_status get_program(lobe_cl_device *device, const char *options, lobe_cl_program **out)
+/* The device's program of these options, built when it is the first. mixed: options name several lobes. */
+static lobe_status get_program(lobe_cl_device *device, const char *options, int mixed, lobe_cl_program **out)
 {
 	const size_t size = strlen(options) + 1;
 	lobe_cl_program *p;
@@ -83,7 +83,7 @@ static lobe_status get_program(lobe_cl_device *device, const char *options, lobe
 	if (!p)
 		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
 	memcpy(p->options, options, size);
-	status = build(device, p);
+	status = build(device, p, mixed);
 	if (status != LOBE_OK) {
 		free(p);
 		return status;
@@ -192,14 +192,19 @@ static lobe_status upload_slots(lobe_cl_device *device, const lobe_scene *scene,
 
 static lobe_status fill_state(lobe_cl_device *device, const lobe_scene *scene, lobe_cl_scene *state)
 {
-	lobe_status status = get_program(device, scene->options, &state->program);
+	lobe_status status;
 	int lobe;
+	for (lobe = 0; lobe < LOBE_COUNT; lobe++) {
+		if (scene->table[lobe].count == 0)
+			continue;
+		state->lobe_count++;
+		state->last_lobe = lobe;
+	}
+	status = get_program(device, scene->options, state->lobe_count > 1, &state->program);
 	for (lobe = 0; lobe < LOBE_COUNT && status == LOBE_OK; lobe++) {
 		const size_t count = scene->table[lobe].count;
 		if (count == 0)
 			continue;
-		state->lobe_count++;
-		state->last_lobe = lobe;
 		status = upload(device, scene->table[lobe].params, count * lobe_param_size[lobe], &state->table[lobe]);
 	}
 	if (status == LOBE_OK && scene->table_words)
