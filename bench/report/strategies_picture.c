@@ -118,6 +118,44 @@ const report_study strategies_reference_study = {
 	"strategies_reference", COLUMNS, 0, reference_units, reference_run, strategies_settings,
 };
 
+/* --- what is to be expected --------------------------------------------------------------------------------------- */
+
+/* Where a technique finds the sun once in a while, the error of a picture is that of its few brightest pixels, and another
+ * picture's is another. So the variance of a sample in a pixel is taken as an integral, of every GRID-th pixel: the mean
+ * square error of all pictures with independent samples, of which the one shown is a draw. */
+enum { GRID = 4 };
+
+static size_t expected_units(int quick) { return pictures(quick) * (size_t)(height_of(quick) / GRID); }
+
+static int expected_run(int quick, size_t unit, report_rows *rows)
+{
+	const int height = height_of(quick), lines = height / GRID;
+	const int y = GRID * (int)(unit % (size_t)lines) + GRID / 2;
+	double sum[STRATEGIES_TECHNIQUES] = {0}, doubt[STRATEGIES_TECHNIQUES] = {0}, n = 0.0;
+	strategies_case ball[BALLS];
+	set_up(ball, light_of(quick, unit / (size_t)lines));
+	for (int x = GRID / 2; x < BALLS * height; x += GRID) {
+		strategies_case *c = &ball[x / height];
+		if (!hit(c, height, x, y))
+			continue;
+		const strategies_moments m = strategies_moments_of(c, 512, 4, (uint32_t)(31 + y * BALLS * height + x));
+		for (int t = 0; t < STRATEGIES_TECHNIQUES; t++) {
+			sum[t] += m.variance[t];
+			doubt[t] += m.error[t] * m.error[t];
+		}
+		n++;
+	}
+	for (int t = 0; t < STRATEGIES_TECHNIQUES && n > 0.0; t++)
+		report_row(rows, "%s,%s,%d,%g,%.7g,%.3g", ball[0].light.name, strategies_name(t), y, n, sum[t],
+			   sqrt(doubt[t]));
+	return 0;
+}
+
+const report_study strategies_expected_study = {
+	"strategies_expected", "light,technique,row,pixels,variance,variance_error", 0, expected_units, expected_run,
+	strategies_settings,
+};
+
 /* --- each technique ----------------------------------------------------------------------------------------------- */
 
 static size_t picture_units(int quick) { return pictures(quick) * STRATEGIES_TECHNIQUES; }
@@ -129,6 +167,7 @@ static double time_pixels(strategies_case ball[BALLS], int technique, int height
 {
 	float u[64][6], sum = 0.0f;
 	double seconds = 0.0, n = 0.0;
+	strategies_estimator *const estimate = strategies_timed(&ball[0], technique);
 	for (uint32_t i = 0; i < 64; i++) {
 		const struct random_key key = {9, 0, i, 0};
 		random_spread(key, RANDOM_LOBE, u[i]);
@@ -141,7 +180,7 @@ static double time_pixels(strategies_case ball[BALLS], int technique, int height
 				continue;
 			const double start = bench_now();
 			for (int i = 0; i < 64; i++)
-				sum += strategies_estimate(c, technique, u[i], u[i] + 3);
+				sum += estimate(c, u[i], u[i] + 3);
 			seconds += bench_now() - start;
 			n += 64.0;
 		}
