@@ -101,12 +101,15 @@ float strategies_estimate(const strategies_case *c, int technique, const float u
 /* That a technique takes the lobe's direction from; VISIBLE for the light alone. */
 lobe_uint strategies_strategy(int technique);
 
-/* The same by technique, compiled for that strategy and distribution alone (strategies_only.h): what times are of. */
-typedef float strategies_estimator(const strategies_case *c, const float u[3], const float v[3]);
-extern strategies_estimator *const strategies_only_ggx[STRATEGIES_TECHNIQUES];
-extern strategies_estimator *const strategies_only_beckmann[STRATEGIES_TECHNIQUES];
-
-strategies_estimator *strategies_timed(const strategies_case *c, int technique);
+/* The same, and what it is made of, compiled for one distribution and for each strategy alone (strategies_only.h): what times
+ * are of. The same bits. */
+typedef struct {
+	float (*estimate[STRATEGIES_TECHNIQUES])(const strategies_case *c, const float u[3], const float v[3]);
+	lobe_real (*pdf[STRATEGIES_LOBE])(const strategies_case *c, lobe_vec3 wi);
+	lobe_sample (*sample[STRATEGIES_LOBE])(const strategies_case *c, lobe_vec3 u);
+} strategies_compiled;
+extern const strategies_compiled strategies_only_ggx, strategies_only_beckmann;
+const strategies_compiled *strategies_compiled_for(const strategies_case *c);
 
 /* The same with production code, ggx_conductor or beckmann_conductor, in the place of VISIBLE. */
 float strategies_estimate_production(const strategies_case *c, const lobe_rough_conductor *p, const float u[3]);
@@ -146,6 +149,9 @@ double strategies_cosine(int quick, size_t i);
 
 extern const report_study strategies_map_study, strategies_time_study, strategies_batch_study, strategies_curves_study,
 	strategies_reference_study, strategies_expected_study, strategies_pictures_study, strategies_holdout_study;
+
+/* Of pictures by other seeds every fourth pixel of every fourth row, from the second on. */
+enum { STRATEGIES_GRID = 4 };
 
 /* strategies_sheet.c: the sheets of pictures, from the rows. */
 void strategies_write_pictures(report_page *page, const report_table *reference, const report_table *expected,

@@ -91,6 +91,11 @@ lobe_uint strategies_strategy(int technique)
 	return technique < STRATEGIES_LOBE ? (lobe_uint)technique : LOBE_STRATEGY_VISIBLE;
 }
 
+const strategies_compiled *strategies_compiled_for(const strategies_case *c)
+{
+	return c->material == STRATEGIES_BECKMANN ? &strategies_only_beckmann : &strategies_only_ggx;
+}
+
 float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3])
 {
 	return strategies_by(c, technique, c->lobe[strategies_strategy(technique)], u, v);

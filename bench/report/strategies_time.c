@@ -15,11 +15,6 @@ enum { POINTS = 1024, ROUNDS_MAX = 31, TIMED = STRATEGIES_TECHNIQUES + 1, PRODUC
 
 static volatile float keep;
 
-strategies_estimator *strategies_timed(const strategies_case *c, int technique)
-{
-	return (c->material == STRATEGIES_BECKMANN ? strategies_only_beckmann : strategies_only_ggx)[technique];
-}
-
 typedef struct {
 	double of[TIMED][ROUNDS_MAX];
 } rounds;
@@ -29,13 +24,13 @@ static const char *timed_name(int t) { return t == PRODUCTION ? "production lobe
 static double time_once(const strategies_case *c, int technique, const float (*u)[6], int repeat)
 {
 	const lobe_rough_conductor p = strategies_production(c->material, (float)c->alpha);
-	strategies_estimator *const estimate = strategies_timed(c, technique == PRODUCTION ? 0 : technique);
+	const strategies_compiled *const only = strategies_compiled_for(c);
 	float sum = 0.0f;
 	const double start = bench_now();
 	for (int k = 0; k < repeat; k++)
 		for (int i = 0; i < POINTS; i++)
 			sum += technique == PRODUCTION ? strategies_estimate_production(c, &p, u[i])
-						       : estimate(c, u[i], u[i] + 3);
+						       : only->estimate[technique](c, u[i], u[i] + 3);
 	keep = sum;
 	return 1e9 * (bench_now() - start) / ((double)repeat * POINTS);
 }
