@@ -308,7 +308,7 @@ $(B)/bench/report: $(B)/report/bench/report/main.o $(B)/bench/libreport.a $(B)/t
 	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@
 
 REPORT_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_report*.c tests/test_stability*.c))
-$(REPORT_TESTS:=.o): private TEST_CFLAGS += -Ibench/report
+$(REPORT_TESTS:=.o): private TEST_CFLAGS += -Ibench/report -Iexamples/common -Iexamples/gallery
 $(REPORT_TESTS:=.o): $(wildcard bench/report/*.h)
 $(REPORT_TESTS): $(B)/tests/%: $(B)/tests/%.o $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a
 	@echo "  link  $@"
