@@ -83,64 +83,6 @@ static void write_times(report_page *page, const report_table *time, const repor
 
 /* --- the section -------------------------------------------------------------------------------------------------- */
 
-static void write_recommendation(report_page *page, const rank_map *m)
-{
-	rank_regrets r;
-	double *room = calloc(3 * (m->count + 1), sizeof *room);
-	double right[MEASURES][2], tenth[2] = {0, 0}, all[MEASURES], median = 0.0, upper = 0.0;
-	if (!room)
-		exit(1);
-	r.of[0] = room;
-	r.of[1] = room + m->count + 1;
-	r.of_default = room + 2 * (m->count + 1);
-	for (int measure = MEASURES - 1; measure >= 0; measure--) {
-		rank_recommend(m, measure, &r);
-		for (int probe = 0; probe < 2; probe++)
-			right[measure][probe] = rank_within(r.of[probe], r.n[probe], 1.05);
-		all[measure] =
-			((double)r.n[0] * right[measure][0] + (r.n[1] ? (double)r.n[1] * right[measure][1] : 0.0)) /
-			(double)(r.n[0] + r.n[1]);
-	}
-	for (int probe = 0; probe < 2; probe++)
-		tenth[probe] = rank_within(r.of[probe], r.n[probe], 2.0);
-	const double unbeaten = 100.0 * (double)r.unbeaten / (double)(r.n[0] + r.n[1]);
-	median = rank_quantile(r.of_default, r.defaults, 0.5);
-	upper = rank_quantile(r.of_default, r.defaults, 0.9);
-	report_text(page,
-		    "**`lobe_recommend_strategy`** (lobe/recommend.h), told the light's shape, is within 5 %% of the "
-		    "best technique "
-		    "of all in %.1f %% of the cells of analytic lights",
-		    right[SAMPLES][0]);
-	if (r.n[1])
-		report_text(page, " and in %.1f %% of those of probes, of which it knows a fitted disk and a sky",
-			    right[SAMPLES][1]);
-	report_text(
-		page,
-		" (same samples; %.1f %% of all cells; told measured times instead, in the same time, %.1f %%), and "
-		"within a factor of 2 in %.1f %%",
-		all[SAMPLES], all[TIME], tenth[0]);
-	if (r.n[1])
-		report_text(page, " and %.1f %%", tenth[1]);
-	report_text(page,
-		    ". It is at least as efficient as each of the ten strategies that know nothing of the light, with "
-		    "the same "
-		    "ties, in %.1f %% of all cells. Against always sampling visible normals alone it needs %.3g times "
-		    "fewer "
-		    "samples at the median, %.3g times at the 90th percentile.\n\n",
-		    unbeaten, median, upper);
-	char probes[64] = "; no probes here";
-	if (r.n[1])
-		snprintf(probes, sizeof probes, ", probes %.1f %%", right[SAMPLES][1]);
-	report_finding(
-		page,
-		"`lobe_recommend_strategy` names a technique within 5 %% of the best of all 14 in %.1f %% of the cells "
-		"(analytic lights %.1f %%%s), and is at least as efficient as every strategy that knows nothing of the "
-		"light in %.1f %%; it saves a factor of %.3g in samples over the default alone at the "
-		"median",
-		all[SAMPLES], right[SAMPLES][0], probes, unbeaten, median);
-	free(room);
-}
-
 static void write(report_page *page, const report_table *const *tables, int quick)
 {
 	static rank_map m;
@@ -156,7 +98,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		"75 in azimuth from the viewer. sr: the solid angle of a uniform light as concentrated. %s\n\n",
 		strategies_probes_said());
 	strategies_write_default(page, &m);
-	write_recommendation(page, &m);
+	strategies_write_recommended(page, &m);
 	strategies_write_holdout(page, tables[7]);
 	strategies_write_maps(page, &m);
 	strategies_write_curves(page, &m, lines, time);

@@ -117,6 +117,9 @@ lobe_rough_conductor strategies_production(int material, float alpha);
 
 static inline float strategies_luminance(lobe_rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
+/* strategies_shape.c: what lobe/recommend.h finds when it asks the light itself. */
+lobe_recommend_sums strategies_asked(const strategies_case *c);
+
 /* --- exact moments (strategies_moments.c) ------------------------------------------------------------------------- */
 
 /* mean: what is estimated; variance: of one sample by each technique (of MIS: a direction of each). error: one standard

@@ -49,7 +49,7 @@ typedef struct {
 static void run_technique(int quick, const strategies_case *c, int technique, double variance, const references *r,
 			  report_rows *rows)
 {
-	const uint32_t repetitions = quick ? 96 : 512;
+	const uint32_t repetitions = quick ? 96 : 256;
 	const strategies_compiled *const only = strategies_compiled_for(c);
 	for (int spread = 0; spread < 2; spread++) {
 		double sum[COUNTS] = {0}, square[COUNTS] = {0}, fourth[COUNTS] = {0};

@@ -190,22 +190,24 @@ static double time_pixels(strategies_case ball[BALLS], int technique, int height
 
 static int picture_run(int quick, size_t unit, report_rows *rows)
 {
-	enum { ROUNDS = 5 };
+	enum { ROUNDS = 9 };
 	const size_t picture = unit / STRATEGIES_TECHNIQUES;
 	const int technique = (int)(unit % STRATEGIES_TECHNIQUES);
 	const int height = height_of(quick), width = BALLS * height;
 	strategies_case ball[BALLS];
-	double ratio[ROUNDS], ns[ROUNDS];
+	double own[ROUNDS], ns[ROUNDS];
 	double *value = calloc((size_t)width, sizeof *value);
 	int failed = value == NULL;
 	set_up(ball, light_of(quick, picture));
 	for (int k = 0; k < ROUNDS; k++) {
-		const double own = time_pixels(ball, LOBE_STRATEGY_VISIBLE, height);
+		own[k] = time_pixels(ball, LOBE_STRATEGY_VISIBLE, height);
 		ns[k] = time_pixels(ball, technique, height);
-		ratio[k] = technique == LOBE_STRATEGY_VISIBLE ? 1.0 : ns[k] / own;
 	}
-	const double samples = DEFAULT_SAMPLES / bench_stats_of(ratio, ROUNDS).median;
-	const double time = bench_stats_of(ns, ROUNDS).median;
+	/* The least of the rounds: other programs only add to it. */
+	const double time = bench_stats_of(ns, ROUNDS).min;
+	const double samples = technique == LOBE_STRATEGY_VISIBLE
+				       ? DEFAULT_SAMPLES
+				       : DEFAULT_SAMPLES * bench_stats_of(own, ROUNDS).min / time;
 	/* The picture, and of others by other seeds every STRATEGIES_GRID-th pixel. */
 	for (int seed = 0; seed <= SEEDS; seed++) {
 		const int step = seed ? STRATEGIES_GRID : 1, first = step / 2;

@@ -253,25 +253,36 @@ static lobe_recommend_cost costs_of(const rank_map *m, const rank_cell *c, int m
 	return p;
 }
 
-void rank_recommend(const rank_map *m, int measure, rank_regrets *r)
+void rank_recommend(const rank_map *m, rank_regrets r[MEASURES])
 {
-	r->n[0] = r->n[1] = r->defaults = r->unbeaten = 0;
+	for (int measure = 0; measure < MEASURES; measure++)
+		r[measure].cells[0] = r[measure].cells[1] = r[measure].unbeaten = 0;
 	for (size_t i = 0; i < m->count; i++) {
 		const rank_cell *c = &m->cell[i];
 		if (rank_dark(c))
 			continue;
 		const strategies_case s = strategies_case_make(c->material, strategies_alpha(m->quick, c->alpha),
 							       strategies_cosine(m->quick, c->cosine), c->light);
-		const int t = rank_recommended(lobe_recommend_strategy(
-			s.lobe[0].surface, s.wo, strategies_shape(&s.light), costs_of(m, c, measure)));
-		double best = HUGE_VAL;
-		for (int k = 0; k < STRATEGIES_TECHNIQUES; k++)
-			best = fmin(best, rank_loss(m, c, k, measure));
+		const lobe_microsurface surface = s.lobe[LOBE_STRATEGY_VISIBLE].surface;
 		const int probe = s.light.probe != NULL;
-		r->unbeaten += (size_t)rank_unbeaten(m, c, t, measure, BLIND);
-		r->of[probe][r->n[probe]++] = rank_loss(m, c, t, measure) / best;
-		r->of_default[r->defaults++] =
-			rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) / rank_loss(m, c, t, measure);
+		const lobe_recommend_sums sums[KNOWING] = {
+			lobe_recommend_integrate(surface, s.wo, strategies_shape(&s.light)), strategies_asked(&s)};
+		for (int measure = 0; measure < MEASURES; measure++) {
+			rank_regrets *of = &r[measure];
+			double best = HUGE_VAL;
+			int t = 0;
+			for (int k = 0; k < STRATEGIES_TECHNIQUES; k++)
+				best = fmin(best, rank_loss(m, c, k, measure));
+			for (int how = 0; how < KNOWING; how++) {
+				t = rank_recommended(
+					lobe_recommend_answer(sums[how], surface, costs_of(m, c, measure)));
+				of->loss[how][probe][of->cells[probe]] = rank_loss(m, c, t, measure) / best;
+			}
+			of->of_default[of->cells[0] + of->cells[1]] =
+				rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) / rank_loss(m, c, t, measure);
+			of->unbeaten += (size_t)rank_unbeaten(m, c, t, measure, BLIND);
+			of->cells[probe]++;
+		}
 	}
 }
 

@@ -43,13 +43,16 @@ typedef struct {
 	double median, worst, alpha[2], cosine[2]; /* 10 and 90 % quantiles */
 } rank_defeat;
 
-/* Loss over the best's in every cell that is not dark, by analytic lights and by probes. */
+/* lobe_recommend_strategy told the light's shape, or asking the light itself. */
+enum { TOLD, ASKING, KNOWING };
+
+/* Loss over the best's of what is recommended in every cell that is not dark, by how and by analytic lights and probes. */
 typedef struct {
-	double *of[2]; /* [cells] */
-	size_t n[2];
-	double *of_default; /* the default's loss over the recommended one's */
-	size_t defaults;
-	size_t unbeaten; /* cells in which what is recommended is, among BLIND */
+	double *loss[KNOWING][2]; /* [cells] */
+	size_t cells[2];
+	/* Asking: the default's loss over the recommended one's, and cells in which that is unbeaten among BLIND. */
+	double *of_default;
+	size_t unbeaten;
 } rank_regrets;
 
 /* Of their names. */
@@ -91,12 +94,16 @@ double rank_quantile(double *values, size_t n, double q);
 /* STRATEGIES_* of what is recommended. */
 int rank_recommended(lobe_recommendation r);
 
-void rank_recommend(const rank_map *m, int measure, rank_regrets *r);
+/* r: with room for as many cells as the map has, in each of its arrays. */
+void rank_recommend(const rank_map *m, rank_regrets r[MEASURES]);
 
 double rank_within(const double *values, size_t n, double limit);
 
 /* strategies_default.c: the default among the strategies that know nothing of the light. */
 void strategies_write_default(report_page *page, const rank_map *m);
+
+/* strategies_recommended.c: how lobe_recommend_strategy does on the map. */
+void strategies_write_recommended(report_page *page, const rank_map *m);
 
 /* strategies_holdout.c: how lobe_recommend_strategy does on cases that it was not tuned on. */
 void strategies_write_holdout(report_page *page, const report_table *t);
