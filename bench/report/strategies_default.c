@@ -309,7 +309,9 @@ void strategies_write_default(report_page *page, const rank_map *m)
 	write_behind(page, m, LOBE_STRATEGY_VISIBLE);
 	report_text(page, "Among uniform and cosine too:\n\n");
 	write_defeats(page, m, LOBE_STRATEGY_VISIBLE, BLIND);
-	report_text(page, "The bounded cap in its place, among those that follow the lobe:\n\n");
+	report_text(page,
+		    "The bounded cap in its place, among those that follow the lobe (of Beckmann too, whose normals it "
+		    "borrows from GGX, and is the worse for it):\n\n");
 	write_defeats(page, m, LOBE_STRATEGY_BOUNDED_CAP, FOLLOWING);
 	write_behind(page, m, LOBE_STRATEGY_BOUNDED_CAP);
 	write_findings(page, m);
