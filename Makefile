@@ -289,7 +289,7 @@ figures:
 	@echo "out/figures: $$(ls out/figures/*.png | wc -l) figures"
 
 # Error against run time, and stability at the extremes. QUICK=1: in minutes. Everything but the main program is a library,
-# for tests of the studies.
+# for tests of the studies. LOBE_REPORT_PROBES names light probes; empty, there are none, and none are fetched.
 REPORT_SOURCES := $(filter-out bench/report/main.c,$(wildcard bench/report/*.c))
 REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/common/*.c)) examples/gallery/light.c \
 	bench/machine.c bench/scenes.c bench/timing.c
@@ -316,7 +316,7 @@ $(B)/bench/report: $(B)/report/bench/report/main.o $(B)/bench/libreport.a $(B)/t
 	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@
 
 REPORT_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_report*.c tests/test_stability*.c))
-$(REPORT_TESTS:=.o): private TEST_CFLAGS += -Ibench/report
+$(REPORT_TESTS:=.o): private TEST_CFLAGS += -Ibench/report -Iexamples/common -Iexamples/gallery
 $(REPORT_TESTS:=.o): $(wildcard bench/report/*.h)
 $(REPORT_TESTS): $(B)/tests/%: $(B)/tests/%.o $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a
 	@echo "  link  $@"
@@ -324,8 +324,13 @@ $(REPORT_TESTS): $(B)/tests/%: $(B)/tests/%.o $(B)/bench/libreport.a $(B)/tests/
 
 report:
 	@./deps.sh all
+	@[ -n "$${LOBE_REPORT_PROBES+set}" ] || ./deps.sh probes
 	+@$(MAKE) --no-print-directory $(JOBS) $(B)/bench/report
 	@$(B)/bench/report $(if $(QUICK),--quick) $(OPTIONS)
+
+# Real light probes, for the report (which asks for them itself) and build/gallery --probe.
+probes:
+	@./deps.sh probes
 
 # The report's part of README.md.
 readme:
@@ -376,6 +381,7 @@ help:
 		'make bench-peers  Mitsuba 3 beside lobe (installs it in build/peers); out/bench/peers.csv' \
 		'make figures    D, G1, masking, albedo, visible normals: out/figures/*.png' \
 		'make report     error against run time, stability, furnaces: out/report/report.md; QUICK=1 in minutes' \
+		'make probes     fetches real light probes for the report and the gallery into build/probes' \
 		'make readme     puts the last report into README.md and doc/' \
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
@@ -384,7 +390,7 @@ help:
 		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: FORCE all run test test-long vectors bench bench-peers figures report readme check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench bench-peers figures report probes readme check deps install clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)

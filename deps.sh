@@ -4,6 +4,7 @@
 #	deps.sh run     the demo: OpenCL on the processor (PoCL), image files, random numbers
 #	deps.sh test    that, and what the tests compare with
 #	deps.sh all     that, and what bench and check use
+#	deps.sh probes  light probes for the report and the gallery, into build/probes: none come with lobe
 #
 # Does nothing, and asks no network, when all is there. Without apt it names what is missing and goes on.
 set -eu
@@ -17,8 +18,9 @@ case ${1:-all} in
 run) wanted=$run ;;
 test) wanted=$test ;;
 all) wanted=$all ;;
+probes) wanted= ;;
 *)
-	echo "usage: deps.sh run|test|all" >&2
+	echo "usage: deps.sh run|test|all|probes" >&2
 	exit 2
 	;;
 esac
@@ -106,8 +108,35 @@ fetch_unity() {
 	}
 }
 
+# --- light probes, by Greg Zaal, CC0, as Debian's package blender-data carries them ---------------------------------------
+
+# Eight of 31 MB, of which nothing is installed. Without network or apt the report goes on without.
+fetch_probes() {
+	ls build/probes/*.exr >/dev/null 2>&1 && return 0
+	if ! command -v apt-get >/dev/null || ! command -v dpkg-deb >/dev/null; then
+		echo "deps: no apt here, so no light probes; LOBE_REPORT_PROBES names some of your own"
+		return 0
+	fi
+	echo "deps: fetching light probes from Debian's package blender-data (31 MB, once) into build/probes"
+	work=$(mktemp -d)
+	trap 'rm -rf "$work"' EXIT
+	from=usr/share/blender/datafiles/studiolights/world
+	options="-qq -o Acquire::Retries=1 -o Acquire::http::Timeout=20 -o APT::Sandbox::User=root"
+	download() { (cd "$work" && apt-get $options download blender-data); }
+	# Where apt's lists are missing they are fetched first.
+	{ { download || { as_root apt-get $options update && download; }; } && dpkg-deb -x "$work"/blender-data_*.deb "$work"; } \
+		>build/deps.log 2>&1 || {
+		tail -n 3 build/deps.log
+		echo "deps: could not fetch them (offline?): no real light probes; LOBE_REPORT_PROBES names some of your own"
+		return 0
+	}
+	mkdir -p build/probes
+	cp "$work/$from"/*.exr "$work/$from"/license.txt build/probes/
+}
+
 mkdir -p build
 install_packages
 case ${1:-all} in
+probes) fetch_probes ;;
 test | all) unity_is_there || fetch_unity ;;
 esac

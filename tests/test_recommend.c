@@ -281,6 +281,108 @@ static void test_recommended_is_about_the_best(void)
 			 1.05 + 3.0 * error);
 }
 
+/* --- the light asked itself ------------------------------------------------------------------------------------------- */
+
+/* Two lamps and a faint sky: no disk with a glow around it. In proportion to their power. */
+enum { LAMPS = 2 };
+static lobe_light_shape lamp(int i)
+{
+	return lobe_light_shape_disk(i ? direction(0.3, 2.6) : direction(0.8, 4.0), i ? 0.02f : 0.2f, 0.9f);
+}
+
+static lobe_light_seen two_lamps(lobe_vec3 w)
+{
+	lobe_light_seen s;
+	s.pdf = 0.0f;
+	for (int i = 0; i < LAMPS; i++)
+		s.pdf += lobe_light_shape_density(lamp(i), w) / LAMPS;
+	s.radiance = 3.0f * s.pdf; /* in a unit of its own */
+	return s;
+}
+
+static lobe_vec3 two_lamps_draw(lobe_vec3 u)
+{
+	const int second = u.z >= 0.5f;
+	return lobe_light_shape_draw(lamp(second), lobe_vec3_make(u.x, u.y, 2.0f * u.z - (second ? 1.0f : 0.0f)));
+}
+
+static lobe_recommendation asking(lobe_microsurface surface, lobe_vec3 wo)
+{
+	lobe_recommend_sums s = lobe_recommend_start(LOBE_RECOMMEND_POINTS);
+	for (int pass = 0; pass < 2; pass++)
+		for (lobe_uint i = 1; i <= LOBE_RECOMMEND_POINTS; i++) {
+			const lobe_vec3 b = lobe_recommend_direction(surface, wo, i),
+					l = two_lamps_draw(lobe_recommend_u(i));
+			s = lobe_recommend_add(s, pass, i, surface, wo, b, two_lamps(b), l, two_lamps(l));
+		}
+	return lobe_recommend_answer(s, surface, lobe_recommend_cost_samples());
+}
+
+/* Variance of a sample, from the library's own, by technique as recommended. */
+static spread lamps_spread(lobe_microsurface surface, lobe_vec3 wo, lobe_uint strategy, lobe_uint from, uint32_t stream)
+{
+	const lobe_microfacet_conductor p = white(surface, strategy);
+	const uint32_t n = samples();
+	double s1 = 0.0, s2 = 0.0, s4 = 0.0;
+	for (uint32_t i = 0; i < n; i++) {
+		float u[3], v[3];
+		double x = 0.0;
+		test_u3(2u * stream, i, u);
+		test_u3(2u * stream + 1u, i, v);
+		const lobe_sample b = lobe_microfacet_conductor_sample(p, wo, lobe_vec3_make(u[0], u[1], u[2]));
+		const lobe_vec3 l = two_lamps_draw(lobe_vec3_make(v[0], v[1], v[2]));
+		const lobe_light_seen at_b = two_lamps(b.wi), at_l = two_lamps(l);
+		if (from != LOBE_SAMPLE_LIGHT && b.event)
+			x += (from == LOBE_SAMPLE_LOBE ? 1.0 : heuristic(from, (double)b.pdf, (double)at_b.pdf)) *
+			     (double)(b.weight.g * at_b.radiance);
+		if (from != LOBE_SAMPLE_LOBE && l.z > 0.0f)
+			x += (from == LOBE_SAMPLE_LIGHT ? 1.0
+							: heuristic(from, (double)at_l.pdf,
+								    (double)lobe_microfacet_conductor_pdf(p, wo, l))) *
+			     (double)(lobe_microfacet_conductor_eval(p, wo, l).g * at_l.radiance / at_l.pdf);
+		s1 += x;
+		s2 += x * x;
+		s4 += x * x * x * x;
+	}
+	spread r;
+	r.mean = s1 / n;
+	r.variance = s2 / n - r.mean * r.mean;
+	r.error = sqrt(s4 / n) / sqrt((double)n);
+	return r;
+}
+
+static void test_a_light_that_is_asked_itself(void)
+{
+	static const double alphas[] = {0.05, 0.2, 0.6};
+	double worst = 0.0, off = 0.0;
+	for (int i = 0; i < 3; i++) {
+		const lobe_microsurface s = lobe_microsurface_make(
+			lobe_distribution_make(LOBE_NDF_GGX), lobe_linear_stretch((float)alphas[i], (float)alphas[i]));
+		const lobe_vec3 wo = direction(0.7, 0.4);
+		const lobe_recommendation r = asking(s, wo);
+		const spread own = lamps_spread(s, wo, r.strategy, r.from, 110u);
+		double least = HUGE_VAL;
+		for (lobe_uint from = LOBE_SAMPLE_LOBE; from <= LOBE_SAMPLE_BOTH_POWER; from++)
+			for (int bounded = 0; bounded < 2; bounded++)
+				least = fmin(least,
+					     directions_of(from) * lamps_spread(s, wo,
+										bounded ? LOBE_STRATEGY_BOUNDED_CAP
+											: LOBE_STRATEGY_VISIBLE,
+										from, 110u)
+									   .variance);
+		const double lost = directions_of(r.from) * own.variance / least;
+		const double deviation = sqrt(own.variance) / own.mean;
+		printf("  two lamps, alpha %-5g from %u, strategy %u: %.3f times the least loss, deviation %.4f, "
+		       "expected "
+		       "%.4f\n",
+		       alphas[i], r.from, r.strategy, lost, deviation, (double)r.deviation);
+		worst = larger(worst, lost - 3.0 * own.error / own.variance);
+		off = larger(off, fabs((double)r.deviation / deviation - 1.0) - 1.5 * own.error / own.variance);
+	}
+	measured("asking: loss over the least", worst, 1.05);
+	measured("asking: expected standard deviation off the measured one", off, 0.1);
+}
+
 /* Costs count: what is twice as expensive has to be twice as good. */
 static void test_cost_decides(void)
 {
@@ -326,6 +428,7 @@ int main(void)
 	UNITY_BEGIN();
 	RUN_TEST(test_draws_follow_the_density);
 	RUN_TEST(test_recommended_is_about_the_best);
+	RUN_TEST(test_a_light_that_is_asked_itself);
 	RUN_TEST(test_cost_decides);
 	RUN_TEST(test_extremes_have_an_answer);
 	return UNITY_END() != 0;

@@ -74,7 +74,7 @@ void *report_open(const char *file);
 
 /* --- sections ----------------------------------------------------------------------------------------------------- */
 
-enum { REPORT_STUDIES_MAX = 6 };
+enum { REPORT_STUDIES_MAX = 8 };
 
 typedef struct {
 	const char *name, *title;

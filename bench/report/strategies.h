@@ -43,7 +43,7 @@ typedef struct {
 } strategies_light;
 
 /* Loads the probes when it is called first, which should be from one thread: LOBE_REPORT_PROBES names files or folders,
- * separated by ':'; without it those of blender-data where they are usual. quick: two of them at most. */
+ * separated by ':'; without it those that deps.sh probes has fetched, or of an installed blender-data. quick: two of them at most. */
 size_t strategies_lights(int quick);
 size_t strategies_analytic_lights(void);
 
@@ -98,11 +98,27 @@ int strategies_ndf(int material);
 /* One estimate of the luminance. u for a direction from the lobe, v for one from the light. */
 float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3]);
 
+/* That a technique takes the lobe's direction from; VISIBLE for the light alone. */
+lobe_uint strategies_strategy(int technique);
+
+/* The same, and what it is made of, compiled for one distribution and for each strategy alone (strategies_only.h): what times
+ * are of. The same bits. */
+typedef struct {
+	float (*estimate[STRATEGIES_TECHNIQUES])(const strategies_case *c, const float u[3], const float v[3]);
+	lobe_real (*pdf[STRATEGIES_LOBE])(const strategies_case *c, lobe_vec3 wi);
+	lobe_sample (*sample[STRATEGIES_LOBE])(const strategies_case *c, lobe_vec3 u);
+} strategies_compiled;
+extern const strategies_compiled strategies_only_ggx, strategies_only_beckmann;
+const strategies_compiled *strategies_compiled_for(const strategies_case *c);
+
 /* The same with production code, ggx_conductor or beckmann_conductor, in the place of VISIBLE. */
 float strategies_estimate_production(const strategies_case *c, const lobe_rough_conductor *p, const float u[3]);
 lobe_rough_conductor strategies_production(int material, float alpha);
 
 static inline float strategies_luminance(lobe_rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+/* strategies_shape.c: what lobe/recommend.h finds when it asks the light itself. */
+lobe_recommend_sums strategies_asked(const strategies_case *c);
 
 /* --- exact moments (strategies_moments.c) ------------------------------------------------------------------------- */
 
@@ -135,9 +151,13 @@ size_t strategies_cosines(int quick);
 double strategies_cosine(int quick, size_t i);
 
 extern const report_study strategies_map_study, strategies_time_study, strategies_batch_study, strategies_curves_study,
-	strategies_reference_study, strategies_pictures_study;
+	strategies_reference_study, strategies_expected_study, strategies_pictures_study, strategies_holdout_study;
+
+/* Of pictures by other seeds every fourth pixel of every fourth row, from the second on. */
+enum { STRATEGIES_GRID = 4 };
 
 /* strategies_sheet.c: the sheets of pictures, from the rows. */
-void strategies_write_pictures(report_page *page, const report_table *reference, const report_table *pictures);
+void strategies_write_pictures(report_page *page, const report_table *reference, const report_table *expected,
+			       const report_table *pictures);
 
 #endif

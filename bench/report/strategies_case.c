@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "strategies.h"
+#include "strategies_estimate.h"
 
 static const char *const names[STRATEGIES_TECHNIQUES] = {
 	"visible (default)",
@@ -84,59 +84,21 @@ strategies_case strategies_case_make(int material, double alpha, double cosine, 
 
 /* --- techniques --------------------------------------------------------------------------------------------------- */
 
-static lobe_rgb times(lobe_rgb a, lobe_rgb b) { return lobe_rgb_make(a.r * b.r, a.g * b.g, a.b * b.b); }
-
-static float from_lobe(const strategies_case *c, lobe_uint strategy, const float u[3])
+lobe_uint strategies_strategy(int technique)
 {
-	const lobe_sample s =
-		lobe_microfacet_conductor_sample(c->lobe[strategy], c->wo, lobe_vec3_make(u[0], u[1], u[2]));
-	float pdf;
-	if (!s.event)
-		return 0.0f;
-	return strategies_luminance(times(s.weight, strategies_radiance(&c->light, s.wi, &pdf)));
+	if (technique == STRATEGIES_BALANCE_BOUNDED)
+		return LOBE_STRATEGY_BOUNDED_CAP;
+	return technique < STRATEGIES_LOBE ? (lobe_uint)technique : LOBE_STRATEGY_VISIBLE;
 }
 
-static float from_light(const strategies_case *c, const float v[3])
+const strategies_compiled *strategies_compiled_for(const strategies_case *c)
 {
-	const struct light_sample s = strategies_draw(&c->light, v[0], v[1]);
-	if (!(s.wi.z > 0.0f && s.pdf > 0.0f))
-		return 0.0f;
-	const lobe_rgb f = lobe_microfacet_conductor_eval(c->lobe[LOBE_STRATEGY_VISIBLE], c->wo, s.wi);
-	return strategies_luminance(times(f, s.radiance)) / s.pdf;
-}
-
-/* Weight of a direction drawn with density a where the other technique has b. By the ratio: a square would overflow. */
-static float heuristic(int technique, float a, float b)
-{
-	const float ratio = b / a;
-	return 1.0f / (1.0f + (technique == STRATEGIES_POWER ? ratio * ratio : ratio));
-}
-
-static float from_both(const strategies_case *c, int technique, const float u[3], const float v[3])
-{
-	const lobe_uint strategy =
-		technique == STRATEGIES_BALANCE_BOUNDED ? LOBE_STRATEGY_BOUNDED_CAP : LOBE_STRATEGY_VISIBLE;
-	const lobe_microfacet_conductor *p = &c->lobe[strategy];
-	const lobe_sample s = lobe_microfacet_conductor_sample(*p, c->wo, lobe_vec3_make(u[0], u[1], u[2]));
-	const struct light_sample l = strategies_draw(&c->light, v[0], v[1]);
-	float sum = 0.0f, pdf;
-	if (s.event) {
-		const lobe_rgb radiance = strategies_radiance(&c->light, s.wi, &pdf);
-		sum = strategies_luminance(times(s.weight, radiance)) * heuristic(technique, s.pdf, pdf);
-	}
-	if (l.wi.z > 0.0f && l.pdf > 0.0f) {
-		const lobe_rgb f = lobe_microfacet_conductor_eval(*p, c->wo, l.wi);
-		pdf = lobe_microfacet_conductor_pdf(*p, c->wo, l.wi);
-		sum += strategies_luminance(times(f, l.radiance)) / l.pdf * heuristic(technique, l.pdf, pdf);
-	}
-	return sum;
+	return c->material == STRATEGIES_BECKMANN ? &strategies_only_beckmann : &strategies_only_ggx;
 }
 
 float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3])
 {
-	if (technique < STRATEGIES_LOBE)
-		return from_lobe(c, (lobe_uint)technique, u);
-	return technique == STRATEGIES_LIGHT ? from_light(c, v) : from_both(c, technique, u, v);
+	return strategies_by(c, technique, c->lobe[strategies_strategy(technique)], u, v);
 }
 
 float strategies_estimate_production(const strategies_case *c, const lobe_rough_conductor *p, const float u[3])
@@ -147,5 +109,5 @@ float strategies_estimate_production(const strategies_case *c, const lobe_rough_
 	float pdf;
 	if (!s.event)
 		return 0.0f;
-	return strategies_luminance(times(s.weight, strategies_radiance(&c->light, s.wi, &pdf)));
+	return strategies_luminance(strategies_times(s.weight, strategies_radiance(&c->light, s.wi, &pdf)));
 }

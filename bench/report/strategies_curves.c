@@ -49,7 +49,8 @@ typedef struct {
 static void run_technique(int quick, const strategies_case *c, int technique, double variance, const references *r,
 			  report_rows *rows)
 {
-	const uint32_t repetitions = quick ? 96 : 512;
+	const uint32_t repetitions = quick ? 96 : 256;
+	const strategies_compiled *const only = strategies_compiled_for(c);
 	for (int spread = 0; spread < 2; spread++) {
 		double sum[COUNTS] = {0}, square[COUNTS] = {0}, fourth[COUNTS] = {0};
 		for (uint32_t k = 0; k < repetitions; k++) {
@@ -59,7 +60,7 @@ static void run_technique(int quick, const strategies_case *c, int technique, do
 			for (uint32_t i = 0; i < LAST; i++) {
 				float u[3], v[3];
 				point(spread, (uint32_t)technique, k, i, u, v);
-				total += (double)strategies_estimate(c, technique, u, v);
+				total += (double)only->estimate[technique](c, u, v);
 				if (i + 1 < next)
 					continue;
 				const double off = total / next - r->truth;

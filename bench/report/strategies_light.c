@@ -188,28 +188,29 @@ static void find_probes(const char *list, glob_t *found)
 
 static void load(int quick)
 {
-	static const char usual[] = "/tmp/probes/usr/share/blender/datafiles/studiolights/world:"
-				    "/usr/share/blender/datafiles/studiolights/world";
+	static const char usual[] = "build/probes"; /* deps.sh probes */
 	const char *given = getenv("LOBE_REPORT_PROBES");
 	const size_t most = quick ? 2 : STRATEGIES_PROBES;
 	glob_t found;
 	memset(&found, 0, sizeof found);
 	find_probes(given ? given : usual, &found);
+	if (!given && !found.gl_pathc)
+		find_probes("/usr/share/blender/datafiles/studiolights/world", &found);
 	/* Spread over the list where it is longer. */
 	const size_t n = found.gl_pathc < most ? found.gl_pathc : most;
 	for (size_t i = 0; i < n; i++)
 		add_probe(found.gl_pathv[n > 1 ? i * (found.gl_pathc - 1) / (n - 1) : 0]);
 	if (probe_count) {
-		snprintf(said, sizeof said, "Probes:");
+		snprintf(said, sizeof said, "Real probes%s:", given ? "" : " (of Debian's blender-data, CC0)");
 		for (size_t i = 0; i < probe_count; i++)
 			snprintf(said + strlen(said), sizeof said - strlen(said), "%s %s (%d x %d)", i ? "," : "",
 				 probe_names[i], probes[i].width, probes[i].height);
 		snprintf(said + strlen(said), sizeof said - strlen(said), ".");
 	} else {
 		snprintf(said, sizeof said,
-			 "Real probes are left out: there is no EXR in %s. `LOBE_REPORT_PROBES` takes files or "
-			 "folders, separated by `:`; the README tells where to get some.",
-			 given ? "LOBE_REPORT_PROBES" : "`/tmp/probes/usr/share/blender/datafiles/studiolights/world`");
+			 "Real probes are left out: there is no EXR in %s. `make probes` fetches eight; "
+			 "`LOBE_REPORT_PROBES` takes other files or folders, separated by `:`.",
+			 given ? "LOBE_REPORT_PROBES" : "`build/probes`");
 	}
 	if (found.gl_pathv)
 		globfree(&found);

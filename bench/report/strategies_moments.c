@@ -39,6 +39,7 @@ static double squared(double x, double p) { return x > 0.0 && p > 0.0 ? x * x / 
 static void add_point(integrals *s, const strategies_case *c, lobe_vec3 wi, double light, lobe_rgb radiance,
 		      int of_light, double scale)
 {
+	const strategies_compiled *const only = strategies_compiled_for(c);
 	double pdf[DENSITIES];
 	if (!(wi.z > 0.0f)) {
 		/* Light from below: a sample of LIGHT and of nothing else. */
@@ -50,7 +51,7 @@ static void add_point(integrals *s, const strategies_case *c, lobe_vec3 wi, doub
 		(double)strategies_luminance(lobe_rgb_make(f.r * radiance.r, f.g * radiance.g, f.b * radiance.b));
 	for (int k = 0; k < STRATEGIES_LIGHT; k++)
 		if (same_as(c->material, k) == k)
-			pdf[k] = (double)lobe_microfacet_conductor_pdf(c->lobe[k], c->wo, wi);
+			pdf[k] = (double)only->pdf[k](c, wi);
 	pdf[STRATEGIES_LIGHT] = light;
 	const double visible = pdf[LOBE_STRATEGY_VISIBLE];
 	if (!((of_light ? light : visible) > 0.0))
@@ -79,6 +80,7 @@ static void add_point(integrals *s, const strategies_case *c, lobe_vec3 wi, doub
 
 static integrals integrate(const strategies_case *c, uint32_t n, uint32_t run, uint32_t seed)
 {
+	const strategies_compiled *const only = strategies_compiled_for(c);
 	integrals s;
 	const double scale = 1.0 / (double)n;
 	memset(&s, 0, sizeof s);
@@ -91,7 +93,7 @@ static integrals integrate(const strategies_case *c, uint32_t n, uint32_t run, u
 		for (int k = 0; k < STRATEGIES_LIGHT; k++) {
 			if (same_as(c->material, k) != k)
 				continue;
-			const lobe_sample b = lobe_microfacet_conductor_sample(c->lobe[k], c->wo, point);
+			const lobe_sample b = only->sample[k](c, point);
 			s.rejected[k] += b.event ? 0.0 : scale;
 			if (k == LOBE_STRATEGY_VISIBLE && b.event) {
 				const lobe_rgb radiance = strategies_radiance(&c->light, b.wi, &pdf);

@@ -13,7 +13,7 @@
 #include "random.h"
 #include "strategies.h"
 
-enum { BALLS = 3, DEFAULT_SAMPLES = 16, STRIP = 8, HALVES = 4, ROUND = 20 };
+enum { BALLS = 3, DEFAULT_SAMPLES = 16, STRIP = 8, HALVES = 4, ROUND = 20, SEEDS = 24 };
 
 static const float alphas[BALLS] = {0.02f, 0.15f, 0.6f};
 
@@ -50,13 +50,14 @@ static void set_up(strategies_case ball[BALLS], size_t light)
 
 static double shade(const strategies_case *c, int technique, uint32_t pixel, uint32_t n, uint32_t seed)
 {
+	const strategies_compiled *const only = strategies_compiled_for(c);
 	double sum = 0.0;
 	for (uint32_t i = 0; i < n; i++) {
 		const struct random_key key = {seed, pixel, i, (uint32_t)technique};
 		float u[3], v[3];
 		random_spread(key, RANDOM_LOBE, u);
 		random_spread(key, RANDOM_LIGHT, v);
-		sum += (double)strategies_estimate(c, technique, u, v);
+		sum += (double)only->estimate[technique](c, u, v);
 	}
 	return n ? sum / n : 0.0;
 }
@@ -66,8 +67,8 @@ static double shade(const strategies_case *c, int technique, uint32_t pixel, uin
 static size_t strips(int quick) { return (size_t)(height_of(quick) / STRIP); }
 static size_t reference_units(int quick) { return pictures(quick) * strips(quick); }
 
-static int print_row(report_rows *rows, const char *light, const char *technique, double spp, double ns, int y,
-		     const double *value, int width)
+static int print_row(report_rows *rows, const char *light, const char *technique, double spp, double ns, int seed,
+		     int y, const double *value, int width)
 {
 	char *text = malloc((size_t)width * 16 + 1);
 	size_t at = 0;
@@ -75,7 +76,7 @@ static int print_row(report_rows *rows, const char *light, const char *technique
 		return 1;
 	for (int x = 0; x < width; x++)
 		at += (size_t)snprintf(text + at, 16, x ? " %.5g" : "%.5g", value[x]);
-	report_row(rows, "%s,%s,%.4f,%.2f,%d,%s", light, technique, spp, ns, y, text);
+	report_row(rows, "%s,%s,%.4f,%.2f,%d,%d,%s", light, technique, spp, ns, seed, y, text);
 	free(text);
 	return 0;
 }
@@ -104,18 +105,55 @@ static int reference_run(int quick, size_t unit, report_rows *rows)
 			}
 			value[width + x] = sqrt(fmax(squares - value[x] * value[x], 0.0) / (HALVES - 1));
 		}
-		failed = print_row(rows, ball[0].light.name, "reference", (double)n * HALVES, 0.0, y, value, width) ||
-			 print_row(rows, ball[0].light.name, "error of the reference", (double)n * HALVES, 0.0, y,
-				   value + width, width);
+		failed =
+			print_row(rows, ball[0].light.name, "reference", (double)n * HALVES, 0.0, 0, y, value, width) ||
+			print_row(rows, ball[0].light.name, "error of the reference", (double)n * HALVES, 0.0, 0, y,
+				  value + width, width);
 	}
 	free(value);
 	return failed;
 }
 
-#define COLUMNS "light,technique,samples,ns,row,pixels"
+#define COLUMNS "light,technique,samples,ns,seed,row,pixels"
 
 const report_study strategies_reference_study = {
 	"strategies_reference", COLUMNS, 0, reference_units, reference_run, strategies_settings,
+};
+
+/* --- what is to be expected --------------------------------------------------------------------------------------- */
+
+/* Where a technique finds the sun once in a while, the error of a picture is that of its few brightest pixels, and another
+ * picture's is another. So the variance of a sample in a pixel is taken as an integral, of every STRATEGIES_GRID-th pixel: the mean
+ * square error of all pictures with independent samples, of which the one shown is a draw. */
+static size_t expected_units(int quick) { return pictures(quick) * (size_t)(height_of(quick) / STRATEGIES_GRID); }
+
+static int expected_run(int quick, size_t unit, report_rows *rows)
+{
+	const int height = height_of(quick), lines = height / STRATEGIES_GRID;
+	const int y = STRATEGIES_GRID * (int)(unit % (size_t)lines) + STRATEGIES_GRID / 2;
+	double sum[STRATEGIES_TECHNIQUES] = {0}, doubt[STRATEGIES_TECHNIQUES] = {0}, n = 0.0;
+	strategies_case ball[BALLS];
+	set_up(ball, light_of(quick, unit / (size_t)lines));
+	for (int x = STRATEGIES_GRID / 2; x < BALLS * height; x += STRATEGIES_GRID) {
+		strategies_case *c = &ball[x / height];
+		if (!hit(c, height, x, y))
+			continue;
+		const strategies_moments m = strategies_moments_of(c, 512, 4, (uint32_t)(31 + y * BALLS * height + x));
+		for (int t = 0; t < STRATEGIES_TECHNIQUES; t++) {
+			sum[t] += m.variance[t];
+			doubt[t] += m.error[t] * m.error[t];
+		}
+		n++;
+	}
+	for (int t = 0; t < STRATEGIES_TECHNIQUES && n > 0.0; t++)
+		report_row(rows, "%s,%s,%d,%g,%.7g,%.3g", ball[0].light.name, strategies_name(t), y, n, sum[t],
+			   sqrt(doubt[t]));
+	return 0;
+}
+
+const report_study strategies_expected_study = {
+	"strategies_expected", "light,technique,row,pixels,variance,variance_error", 0, expected_units, expected_run,
+	strategies_settings,
 };
 
 /* --- each technique ----------------------------------------------------------------------------------------------- */
@@ -124,59 +162,82 @@ static size_t picture_units(int quick) { return pictures(quick) * STRATEGIES_TEC
 
 static volatile float keep;
 
-/* Of a sample, over all pixels, without its random numbers. */
-static double time_pixels(strategies_case ball[BALLS], int technique, int height)
+enum { OF_DEFAULT, OF_TECHNIQUE, TIMED };
+
+static double time_pixel(const strategies_case *c, int technique, const float (*u)[6], int count)
 {
-	float u[64][6], sum = 0.0f;
-	double seconds = 0.0, n = 0.0;
-	for (uint32_t i = 0; i < 64; i++) {
+	const strategies_compiled *const only = strategies_compiled_for(c);
+	float sum = 0.0f;
+	const double start = bench_now();
+	for (int i = 0; i < count; i++)
+		sum += only->estimate[technique](c, u[i], u[i] + 3);
+	keep = sum;
+	return 1e9 * (bench_now() - start) / count;
+}
+
+/* Of a sample without its random numbers, by the default and by the technique in turn, mean over pixels: of each the least
+ * of some microseconds, for other programs on the machine only add to it. */
+static void time_pixels(strategies_case ball[BALLS], int technique, int height, double ns[TIMED])
+{
+	enum { COUNT = 64, ROUNDS = 9 };
+	float u[COUNT][6];
+	double n = 0.0;
+	for (uint32_t i = 0; i < COUNT; i++) {
 		const struct random_key key = {9, 0, i, 0};
 		random_spread(key, RANDOM_LOBE, u[i]);
 		random_spread(key, RANDOM_LIGHT, u[i] + 3);
 	}
+	ns[OF_DEFAULT] = ns[OF_TECHNIQUE] = 0.0;
 	for (int y = 1; y < height; y += 3)
 		for (int x = 0; x < BALLS * height; x++) {
 			strategies_case *c = &ball[x / height];
+			double least[TIMED] = {HUGE_VAL, HUGE_VAL};
 			if (!hit(c, height, x, y))
 				continue;
-			const double start = bench_now();
-			for (int i = 0; i < 64; i++)
-				sum += strategies_estimate(c, technique, u[i], u[i] + 3);
-			seconds += bench_now() - start;
-			n += 64.0;
+			for (int k = 0; k < ROUNDS; k++)
+				for (int which = 0; which < TIMED; which++)
+					least[which] = fmin(
+						least[which],
+						time_pixel(c, which == OF_DEFAULT ? LOBE_STRATEGY_VISIBLE : technique,
+							   (const float(*)[6])u, COUNT));
+			for (int which = 0; which < TIMED; which++)
+				ns[which] += least[which];
+			n++;
 		}
-	keep = sum;
-	return 1e9 * seconds / n;
+	ns[OF_DEFAULT] /= n;
+	ns[OF_TECHNIQUE] /= n;
 }
 
 static int picture_run(int quick, size_t unit, report_rows *rows)
 {
-	enum { ROUNDS = 5 };
 	const size_t picture = unit / STRATEGIES_TECHNIQUES;
 	const int technique = (int)(unit % STRATEGIES_TECHNIQUES);
 	const int height = height_of(quick), width = BALLS * height;
 	strategies_case ball[BALLS];
-	double ratio[ROUNDS], ns[ROUNDS];
+	double ns[TIMED];
 	double *value = calloc((size_t)width, sizeof *value);
 	int failed = value == NULL;
 	set_up(ball, light_of(quick, picture));
-	for (int k = 0; k < ROUNDS; k++) {
-		const double own = time_pixels(ball, LOBE_STRATEGY_VISIBLE, height);
-		ns[k] = time_pixels(ball, technique, height);
-		ratio[k] = technique == LOBE_STRATEGY_VISIBLE ? 1.0 : ns[k] / own;
-	}
-	const double samples = DEFAULT_SAMPLES / bench_stats_of(ratio, ROUNDS).median;
-	const double time = bench_stats_of(ns, ROUNDS).median;
-	for (int y = 0; y < height && !failed; y++) {
-		for (int x = 0; x < width; x++) {
-			strategies_case *c = &ball[x / height];
-			const uint32_t pixel = (uint32_t)(y * width + x);
-			const struct random_key key = {13, pixel, 0, (uint32_t)technique};
-			const uint32_t n = (uint32_t)(samples + (double)random_plain(key, ROUND));
-			value[x] = hit(c, height, x, y) ? shade(c, technique, pixel, n, 17) : 0.0;
+	time_pixels(ball, technique, height, ns);
+	const double samples = technique == LOBE_STRATEGY_VISIBLE ? DEFAULT_SAMPLES
+								  : DEFAULT_SAMPLES * ns[OF_DEFAULT] / ns[OF_TECHNIQUE];
+	/* The picture, and of others by other seeds every STRATEGIES_GRID-th pixel. */
+	for (int seed = 0; seed <= SEEDS; seed++) {
+		const int step = seed ? STRATEGIES_GRID : 1, first = step / 2;
+		for (int y = first; y < height && !failed; y += step) {
+			int count = 0;
+			for (int x = first; x < width; x += step) {
+				strategies_case *c = &ball[x / height];
+				const uint32_t pixel = (uint32_t)(y * width + x);
+				const struct random_key key = {13 + (uint32_t)seed, pixel, 0, (uint32_t)technique};
+				const uint32_t n = (uint32_t)(samples + (double)random_plain(key, ROUND));
+				value[count++] = hit(c, height, x, y)
+							 ? shade(c, technique, pixel, n, 200 + (uint32_t)seed)
+							 : 0.0;
+			}
+			failed = print_row(rows, ball[0].light.name, strategies_name(technique), samples,
+					   ns[OF_TECHNIQUE], seed, y, value, count);
 		}
-		failed =
-			print_row(rows, ball[0].light.name, strategies_name(technique), samples, time, y, value, width);
 	}
 	free(value);
 	return failed;

@@ -111,19 +111,69 @@ int rank_winner(const rank_map *m, const rank_cell *c, int techniques, int measu
 	return rank_loss(m, c, LOBE_STRATEGY_BOUNDED_CAP, measure) <= enough ? LOBE_STRATEGY_BOUNDED_CAP : best;
 }
 
-int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure)
+int rank_is_among(int k, int among)
 {
-	const int ndf = strategies_ndf(c->material);
-	for (int other = 0; other < STRATEGIES_LOBE; other++) {
-		const double noise =
-			measure == TIME ? m->noise[ndf][c->light][other] + m->noise[ndf][c->light][k] : 0.0;
-		const double of_variance = 2.0 * hypot(c->error[k] / fmax(c->variance[k], 1e-300),
-						       c->error[other] / fmax(c->variance[other], 1e-300));
-		const double tie = fmax(RANK_TIE, 1.0 + fmin(noise + fmin(of_variance, 0.05), 0.25));
-		if (rank_loss(m, c, k, measure) > tie * rank_loss(m, c, other, measure))
+	return k < STRATEGIES_LOBE && (among == BLIND || !lobe_strategy_of_directions((lobe_uint)k));
+}
+
+static double noise_of(const rank_map *m, const rank_cell *c, int k)
+{
+	return m->noise[strategies_ndf(c->material)][c->light][k];
+}
+
+static double doubt_of(const rank_cell *c, int k) { return c->error[k] / fmax(c->variance[k], 1e-300); }
+
+static double tie(const rank_map *m, const rank_cell *c, int a, int b, int measure)
+{
+	const double of_times = measure == TIME ? noise_of(m, c, a) + noise_of(m, c, b) : 0.0;
+	const double of_variances = fmin(2.0 * hypot(doubt_of(c, a), doubt_of(c, b)), 0.05);
+	return fmax(RANK_TIE, 1.0 + fmin(of_times + of_variances, 0.25));
+}
+
+int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure, int among)
+{
+	for (int other = 0; other < STRATEGIES_LOBE; other++)
+		if (rank_is_among(other, among) &&
+		    rank_loss(m, c, k, measure) > tie(m, c, k, other, measure) * rank_loss(m, c, other, measure))
 			return 0;
-	}
 	return 1;
+}
+
+int rank_best(const rank_map *m, const rank_cell *c, int measure, int among)
+{
+	int best = LOBE_STRATEGY_VISIBLE;
+	for (int k = 1; k < STRATEGIES_LOBE; k++)
+		if (rank_is_among(k, among) && rank_loss(m, c, k, measure) < rank_loss(m, c, best, measure))
+			best = k;
+	return best;
+}
+
+rank_defeat rank_defeat_of(const rank_map *m, int k, int measure, int among, int light, int rival)
+{
+	rank_defeat d = {0, NAN, NAN, {NAN, NAN}, {NAN, NAN}};
+	double *room = calloc(3 * (m->count + 1), sizeof *room);
+	if (!room)
+		exit(1);
+	double *const factor = room, *const alpha = room + m->count + 1, *const cosine = room + 2 * (m->count + 1);
+	for (size_t i = 0; i < m->count; i++) {
+		const rank_cell *c = &m->cell[i];
+		if (rank_dark(c) || (light >= 0 && c->light != (size_t)light) || rank_unbeaten(m, c, k, measure, among))
+			continue;
+		const int best = rank_best(m, c, measure, among);
+		if (rival >= 0 && best != rival)
+			continue;
+		factor[d.cells] = rank_loss(m, c, k, measure) / rank_loss(m, c, best, measure);
+		alpha[d.cells] = strategies_alpha(m->quick, c->alpha);
+		cosine[d.cells++] = strategies_cosine(m->quick, c->cosine);
+	}
+	d.median = rank_quantile(factor, d.cells, 0.5);
+	d.worst = rank_quantile(factor, d.cells, 1.0);
+	for (int q = 0; q < 2; q++) {
+		d.alpha[q] = rank_quantile(alpha, d.cells, q ? 0.9 : 0.1);
+		d.cosine[q] = rank_quantile(cosine, d.cells, q ? 0.9 : 0.1);
+	}
+	free(room);
+	return d;
 }
 
 int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure)
@@ -131,14 +181,14 @@ int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure)
 	return rank_winner(m, c, STRATEGIES_TECHNIQUES, measure) < STRATEGIES_LOBE;
 }
 
-rank_share rank_share_of(const rank_map *m, int k, int measure, int ndf)
+rank_share rank_share_of(const rank_map *m, int k, int measure, int among, int ndf)
 {
 	rank_share s = {0, 0, 0, 0};
 	for (size_t i = 0; i < m->count; i++) {
 		const rank_cell *c = &m->cell[i];
 		if (rank_dark(c) || (ndf >= 0 && strategies_ndf(c->material) != ndf))
 			continue;
-		const int good = rank_unbeaten(m, c, k, measure), turn = rank_lobes_turn(m, c, measure);
+		const int good = rank_unbeaten(m, c, k, measure, among), turn = rank_lobes_turn(m, c, measure);
 		s.cells++;
 		s.turns += turn;
 		s.all += good;
@@ -147,6 +197,20 @@ rank_share rank_share_of(const rank_map *m, int k, int measure, int ndf)
 	s.all *= 100.0 / fmax(s.cells, 1.0);
 	s.turn *= 100.0 / fmax(s.turns, 1.0);
 	return s;
+}
+
+int rank_most(const rank_map *m, int measure, int among, double *share)
+{
+	int most = LOBE_STRATEGY_VISIBLE;
+	*share = 0.0;
+	for (int k = 0; k < STRATEGIES_LOBE; k++) {
+		const double all = rank_is_among(k, among) ? rank_share_of(m, k, measure, among, -1).all : 0.0;
+		if (all > *share) {
+			*share = all;
+			most = k;
+		}
+	}
+	return most;
 }
 
 static int ascending(const void *a, const void *b)
@@ -165,7 +229,7 @@ double rank_quantile(double *values, size_t n, double q)
 
 /* --- the recommendation ------------------------------------------------------------------------------------------- */
 
-static int technique_recommended(lobe_recommendation r)
+int rank_recommended(lobe_recommendation r)
 {
 	if (r.from == LOBE_SAMPLE_LIGHT)
 		return STRATEGIES_LIGHT;
@@ -189,24 +253,36 @@ static lobe_recommend_cost costs_of(const rank_map *m, const rank_cell *c, int m
 	return p;
 }
 
-void rank_recommend(const rank_map *m, int measure, rank_regrets *r)
+void rank_recommend(const rank_map *m, rank_regrets r[MEASURES])
 {
-	r->n[0] = r->n[1] = r->defaults = 0;
+	for (int measure = 0; measure < MEASURES; measure++)
+		r[measure].cells[0] = r[measure].cells[1] = r[measure].unbeaten = 0;
 	for (size_t i = 0; i < m->count; i++) {
 		const rank_cell *c = &m->cell[i];
 		if (rank_dark(c))
 			continue;
 		const strategies_case s = strategies_case_make(c->material, strategies_alpha(m->quick, c->alpha),
 							       strategies_cosine(m->quick, c->cosine), c->light);
-		const int t = technique_recommended(lobe_recommend_strategy(
-			s.lobe[0].surface, s.wo, strategies_shape(&s.light), costs_of(m, c, measure)));
-		double best = HUGE_VAL;
-		for (int k = 0; k < STRATEGIES_TECHNIQUES; k++)
-			best = fmin(best, rank_loss(m, c, k, measure));
+		const lobe_microsurface surface = s.lobe[LOBE_STRATEGY_VISIBLE].surface;
 		const int probe = s.light.probe != NULL;
-		r->of[probe][r->n[probe]++] = rank_loss(m, c, t, measure) / best;
-		r->of_default[r->defaults++] =
-			rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) / rank_loss(m, c, t, measure);
+		const lobe_recommend_sums sums[KNOWING] = {
+			lobe_recommend_integrate(surface, s.wo, strategies_shape(&s.light)), strategies_asked(&s)};
+		for (int measure = 0; measure < MEASURES; measure++) {
+			rank_regrets *of = &r[measure];
+			double best = HUGE_VAL;
+			int t = 0;
+			for (int k = 0; k < STRATEGIES_TECHNIQUES; k++)
+				best = fmin(best, rank_loss(m, c, k, measure));
+			for (int how = 0; how < KNOWING; how++) {
+				t = rank_recommended(
+					lobe_recommend_answer(sums[how], surface, costs_of(m, c, measure)));
+				of->loss[how][probe][of->cells[probe]] = rank_loss(m, c, t, measure) / best;
+			}
+			of->of_default[of->cells[0] + of->cells[1]] =
+				rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) / rank_loss(m, c, t, measure);
+			of->unbeaten += (size_t)rank_unbeaten(m, c, t, measure, BLIND);
+			of->cells[probe]++;
+		}
 	}
 }
 

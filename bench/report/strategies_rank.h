@@ -9,8 +9,12 @@
 
 enum { LIGHTS_MAX = 32, SAMPLES = 0, TIME = 1, MEASURES = 2 };
 
-/* What ties: within 2 %, or the noise of the times where that is more. */
+/* What ties: within 2 %, or within what is known of the two - two standard deviations of the integrals, 5 % at most, and
+ * the spread of the times. Strategies of one density have one variance (strategies_moments.c) and tie in it. */
 #define RANK_TIE 1.02
+
+/* Among whom: strategies that draw facets of the lobe, or all that know nothing of the light, uniform and cosine too. */
+enum { FOLLOWING, BLIND, AMONG };
 
 typedef struct {
 	int material;
@@ -33,12 +37,22 @@ typedef struct {
 	double all, turn, cells, turns; /* shares in percent, and of how many */
 } rank_share;
 
-/* Loss over the best's in every cell that is not dark, by analytic lights and by probes. */
+/* Where a strategy is beaten, by its best rival there: factors of loss, and where that is, sorted; by rival. */
 typedef struct {
-	double *of[2]; /* [cells] */
-	size_t n[2];
-	double *of_default; /* the default's loss over the recommended one's */
-	size_t defaults;
+	size_t cells;
+	double median, worst, alpha[2], cosine[2]; /* 10 and 90 % quantiles */
+} rank_defeat;
+
+/* lobe_recommend_strategy told the light's shape, or asking the light itself. */
+enum { TOLD, ASKING, KNOWING };
+
+/* Loss over the best's of what is recommended in every cell that is not dark, by how and by analytic lights and probes. */
+typedef struct {
+	double *loss[KNOWING][2]; /* [cells] */
+	size_t cells[2];
+	/* Asking: the default's loss over the recommended one's, and cells in which that is unbeaten among BLIND. */
+	double *of_default;
+	size_t unbeaten;
 } rank_regrets;
 
 /* Of their names. */
@@ -55,20 +69,44 @@ int rank_dark(const rank_cell *c);
 /* The first of VISIBLE, BOUNDED_CAP and the rest that is as good as the best. techniques: how many are looked at. */
 int rank_winner(const rank_map *m, const rank_cell *c, int techniques, int measure);
 
-/* k is at least as efficient as every other lobe-sampling strategy, or what it lacks is within the noise. */
-int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure);
+int rank_is_among(int strategy, int among);
+
+/* Technique k, any, is at least as efficient as each of them, or what it lacks is within the tie. */
+int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure, int among);
+
+/* The most efficient of them. */
+int rank_best(const rank_map *m, const rank_cell *c, int measure, int among);
+
+/* Of k by rival; light: of the grid, or -1 for all; rival: or -1 for any. */
+rank_defeat rank_defeat_of(const rank_map *m, int k, int measure, int among, int light, int rival);
 
 /* Where the lobe is what to sample: no technique that asks the light is clearly better. */
 int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure);
 
 /* Of cells where k is unbeaten. ndf: as strategies_ndf, or -1 for all. */
-rank_share rank_share_of(const rank_map *m, int k, int measure, int ndf);
+rank_share rank_share_of(const rank_map *m, int k, int measure, int among, int ndf);
+
+/* The strategy of those that is unbeaten in most cells: no fixed one of them does better than its share. */
+int rank_most(const rank_map *m, int measure, int among, double *share);
 
 double rank_quantile(double *values, size_t n, double q);
 
-void rank_recommend(const rank_map *m, int measure, rank_regrets *r);
+/* STRATEGIES_* of what is recommended. */
+int rank_recommended(lobe_recommendation r);
+
+/* r: with room for as many cells as the map has, in each of its arrays. */
+void rank_recommend(const rank_map *m, rank_regrets r[MEASURES]);
 
 double rank_within(const double *values, size_t n, double limit);
+
+/* strategies_default.c: the default among the strategies that know nothing of the light. */
+void strategies_write_default(report_page *page, const rank_map *m);
+
+/* strategies_recommended.c: how lobe_recommend_strategy does on the map. */
+void strategies_write_recommended(report_page *page, const rank_map *m);
+
+/* strategies_holdout.c: how lobe_recommend_strategy does on cases that it was not tuned on. */
+void strategies_write_holdout(report_page *page, const report_table *t);
 
 /* strategies_plot.c: figures of the map and of the error curves, and what the latter say. */
 void strategies_write_maps(report_page *page, const rank_map *m);

@@ -3,7 +3,7 @@
  * Analytic lights are such shapes themselves (but that a sun's sky is described by its own slope). To a probe one is
  * fitted: around the direction of most light, or of most light squared, the disk or glow of which the integral of L^2
  * over its density is least, which is the second moment of light sampled by it. What is below the horizon is left out:
- * no lobe sees it. */
+ * no lobe sees it. Or the light itself is asked, at points of its own drawing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,6 +117,32 @@ lobe_light_shape strategies_fit(const struct light *light)
 					}
 	}
 	return best;
+}
+
+static lobe_light_seen seen(const strategies_light *light, lobe_vec3 w)
+{
+	lobe_light_seen s;
+	const lobe_rgb radiance = strategies_radiance(light, w, &s.pdf);
+	s.radiance = strategies_luminance(radiance);
+	return s;
+}
+
+lobe_recommend_sums strategies_asked(const strategies_case *c)
+{
+	const lobe_microsurface surface = c->lobe[LOBE_STRATEGY_VISIBLE].surface;
+	lobe_recommend_sums s = lobe_recommend_start(LOBE_RECOMMEND_POINTS);
+	for (int pass = 0; pass < 2; pass++)
+		for (lobe_uint i = 1; i <= LOBE_RECOMMEND_POINTS; i++) {
+			const lobe_vec3 u = lobe_recommend_u(i), b = lobe_recommend_direction(surface, c->wo, i);
+			const struct light_sample l = strategies_draw(&c->light, u.x, u.y);
+			lobe_light_seen at_b = {0.0f, 0.0f}, at_l;
+			if (b.z > 0.0f)
+				at_b = seen(&c->light, b);
+			at_l.radiance = strategies_luminance(l.radiance);
+			at_l.pdf = l.pdf;
+			s = lobe_recommend_add(s, pass, i, surface, c->wo, b, at_b, l.wi, at_l);
+		}
+	return s;
 }
 
 lobe_light_shape strategies_shape(const strategies_light *light)

@@ -1,7 +1,7 @@
 # strategies_sheet.gp - pictures by each technique in equal time, and their errors in false colour.
 #	PICTURES, ERRORS: files to write; LIGHT
 load "strategies_sheet_titles.gp"
-set terminal pngcairo size 1500, 60 + 5 * 190 noenhanced font "sans,10"
+set terminal pngcairo size 1500, 60 + 5 * 210 noenhanced font "sans,10"
 unset border
 unset tics
 unset key
@@ -12,7 +12,7 @@ set yrange [HEIGHT - 0.5:-0.5]
 set lmargin 0.5
 set rmargin 0.5
 set bmargin 0.2
-set tmargin 1.6
+set tmargin 3
 set output PICTURES
 set multiplot layout 5, 3 title "in equal time: " . LIGHT font "sans,13"
 do for [i = 1:15] {

@@ -6,10 +6,20 @@
  *	p = lobe_microfacet_conductor_make(surface, fresnel, r.strategy);	and r.from says what to draw from
  *
  * Of a reflecting lobe. The light is described by a disk and a glow around one direction (in the shading frame, unit),
- * their solid angles, and how much of all light comes from each; the rest is a sky over the surface.
+ * their solid angles, and how much of all light comes from each; the rest is a sky over the surface. A light that is not
+ * like that - lamps here and there, a probe - is asked itself, at directions of the lobe's and of its own drawing:
+ *
+ *	lobe_recommend_sums s = lobe_recommend_start(LOBE_RECOMMEND_POINTS);
+ *	for (int pass = 0; pass < 2; pass++)
+ *		for (lobe_uint i = 1; i <= LOBE_RECOMMEND_POINTS; i++) {
+ *			lobe_vec3 b = lobe_recommend_direction(surface, wo, i), l = my_light_draw(lobe_recommend_u(i));
+ *			s = lobe_recommend_add(s, pass, i, surface, wo, b, my_light(b), l, my_light(l));
+ *		}
+ *	lobe_recommendation r = lobe_recommend_answer(s, surface, lobe_recommend_cost_samples());
+ *
  * The variance that each technique would have is then an integral, and that is what is compared: integrated with
- * LOBE_RECOMMEND_POINTS points of a lattice from the lobe and as many from the light, all techniques on the same ones
- * (power heuristic between the two). A technique's efficiency is 1/(variance cost). Nearly equal ones go to the first of
+ * points of a lattice from the lobe and as many from the light, all techniques on the same ones (power heuristic between
+ * the two). A technique's efficiency is 1/(variance cost). Nearly equal ones go to the first of
  * VISIBLE, BOUNDED_CAP and the rest.
  *
  * It takes about a millisecond: a question to ask for a material, an angle and a light, not for a sample. How often
@@ -117,10 +127,16 @@ typedef struct {
 	lobe_real pdf[LOBE_RECOMMEND_DENSITIES];
 } lobe_recommend_point;
 
-/* mean, and of each technique what the first pass finds of it (mass of the densities; of BOTH the lobe's part of the mean)
- * and the second (variance). */
+/* What is seen of the light in a direction: its radiance (of three channels the luminance; in any unit), and the density
+ * with which its own sampling draws that direction [1/sr]. */
 typedef struct {
-	lobe_real mean;
+	lobe_real radiance, pdf;
+} lobe_light_seen;
+
+/* part: 1 over the number of points. mean, and of each technique what the first pass finds of it (mass of the densities; of
+ * BOTH the lobe's part of the mean) and the second (variance). */
+typedef struct {
+	lobe_real part, mean;
 	lobe_real first[LOBE_RECOMMEND_TECHNIQUES];
 	lobe_real rejected[LOBE_RECOMMEND_DENSITIES];
 	lobe_real variance[LOBE_RECOMMEND_TECHNIQUES];
@@ -179,7 +195,7 @@ LOBE_FN lobe_vec3 lobe_recommend_u(lobe_uint i)
 }
 
 LOBE_FN_APART lobe_recommend_point lobe_recommend_at(lobe_microsurface s, lobe_vec3 wo, lobe_vec3 wi,
-						     lobe_light_shape light)
+						     lobe_light_seen light)
 {
 	const lobe_real zero = LOBE_R(0.0);
 	lobe_recommend_point p;
@@ -193,17 +209,17 @@ LOBE_FN_APART lobe_recommend_point lobe_recommend_at(lobe_microsurface s, lobe_v
 		if (k == LOBE_STRATEGY_VISIBLE)
 			p.value = r.facing > zero ? lobe_finite_or_zero(r.density * r.g2_over_cos) : zero;
 	}
-	p.pdf[LOBE_RECOMMEND_LIGHT] = lobe_light_shape_density(light, wi);
-	p.value *= p.pdf[LOBE_RECOMMEND_LIGHT];
+	p.pdf[LOBE_RECOMMEND_LIGHT] = light.pdf;
+	p.value *= light.radiance;
 	return p;
 }
 
-/* What a point drawn by density own, where the other technique has other, counts of n: by the power heuristic. */
-LOBE_FN lobe_real lobe_recommend_weight(lobe_real own, lobe_real other)
+/* What a point drawn by density own, where the other technique has other, counts: by the power heuristic. */
+LOBE_FN lobe_real lobe_recommend_weight(lobe_real part, lobe_real own, lobe_real other)
 {
 	const lobe_real ratio = other / own;
 	const lobe_real w = LOBE_R(1.0) / (own * lobe_fma(ratio, ratio, LOBE_R(1.0)));
-	return own > LOBE_R(0.0) ? w * (LOBE_R(1.0) / (lobe_real)LOBE_RECOMMEND_POINTS) : LOBE_R(0.0);
+	return own > LOBE_R(0.0) ? w * part : LOBE_R(0.0);
 }
 
 /* The strategy that technique t takes the lobe's direction from. */
@@ -267,54 +283,76 @@ LOBE_FN_APART lobe_vec3 lobe_recommend_draw(lobe_microsurface s, lobe_uint k, lo
 	return seen ? wi : lobe_vec3_make(zero, zero, zero);
 }
 
-/* Both passes; the second takes what the first found. */
+/* Where the lobe looks at point i; (0, 0, 0): nowhere, and what the light is there does not matter. */
+LOBE_FN lobe_vec3 lobe_recommend_direction(lobe_microsurface surface, lobe_vec3 wo, lobe_uint i)
+{
+	return lobe_recommend_draw(surface, LOBE_STRATEGY_VISIBLE, wo, lobe_recommend_u(i));
+}
+
+/* count: of points. The more uneven a light, the more of them it takes. */
+LOBE_FN lobe_recommend_sums lobe_recommend_start(lobe_uint count)
+{
+	lobe_recommend_sums s;
+	s.part = LOBE_R(1.0) / (lobe_real)count;
+	s.mean = LOBE_R(0.0);
+	for (int t = 0; t < LOBE_RECOMMEND_TECHNIQUES; t++)
+		s.first[t] = s.variance[t] = LOBE_R(0.0);
+	for (int k = 0; k < LOBE_RECOMMEND_DENSITIES; k++)
+		s.rejected[k] = LOBE_R(0.0);
+	return s;
+}
+
+/* Point i, from 1 on, of pass 0 over all of them, then of pass 1, which takes what the first has found. b:
+ * lobe_recommend_direction; l: drawn from the light with lobe_recommend_u(i), of its sampling's own density. */
+LOBE_FN_APART lobe_recommend_sums lobe_recommend_add(lobe_recommend_sums s, int pass, lobe_uint i,
+						     lobe_microsurface surface, lobe_vec3 wo, lobe_vec3 b,
+						     lobe_light_seen at_b, lobe_vec3 l, lobe_light_seen at_l)
+{
+	const lobe_vec3 u = lobe_recommend_u(i);
+	const lobe_recommend_point of_b = lobe_recommend_at(surface, wo, b, at_b);
+	const lobe_recommend_point of_l = lobe_recommend_at(surface, wo, l, at_l);
+	const lobe_real w_b =
+		lobe_recommend_weight(s.part, of_b.pdf[LOBE_STRATEGY_VISIBLE], of_b.pdf[LOBE_RECOMMEND_LIGHT]);
+	const lobe_real w_l =
+		lobe_recommend_weight(s.part, of_l.pdf[LOBE_RECOMMEND_LIGHT], of_l.pdf[LOBE_STRATEGY_VISIBLE]);
+	if (pass)
+		return lobe_recommend_second(lobe_recommend_second(s, of_b, w_b), of_l, w_l);
+	s = lobe_recommend_first(lobe_recommend_first(s, of_b, w_b), of_l, w_l);
+	for (int k = 0; k < LOBE_STRATEGY_LAST + 1; k++)
+		if (lobe_recommend_looks_at(k) & lobe_recommend_covered(k, surface))
+			s.rejected[k] += lobe_recommend_draw(surface, (lobe_uint)k, wo, u).z > LOBE_R(0.0) ? LOBE_R(0.0)
+													   : s.part;
+	return s;
+}
+
+/* All of it under a light of that shape. */
 LOBE_FN_APART lobe_recommend_sums lobe_recommend_integrate(lobe_microsurface surface, lobe_vec3 wo,
 							   lobe_light_shape light)
 {
-	const lobe_real zero = LOBE_R(0.0), part = LOBE_R(1.0) / (lobe_real)LOBE_RECOMMEND_POINTS;
-	lobe_recommend_sums s;
-	s.mean = zero;
-	for (int t = 0; t < LOBE_RECOMMEND_TECHNIQUES; t++)
-		s.first[t] = s.variance[t] = zero;
-	for (int k = 0; k < LOBE_RECOMMEND_DENSITIES; k++)
-		s.rejected[k] = zero;
+	lobe_recommend_sums s = lobe_recommend_start(LOBE_RECOMMEND_POINTS);
 	for (int pass = 0; pass < 2; pass++)
 		for (lobe_uint i = 1; i <= LOBE_RECOMMEND_POINTS; i++) {
-			const lobe_vec3 u = lobe_recommend_u(i);
-			const lobe_vec3 b = lobe_recommend_draw(surface, LOBE_STRATEGY_VISIBLE, wo, u);
-			const lobe_recommend_point at_b = lobe_recommend_at(surface, wo, b, light);
-			const lobe_recommend_point at_l =
-				lobe_recommend_at(surface, wo, lobe_light_shape_draw(light, u), light);
-			const lobe_real w_b =
-				lobe_recommend_weight(at_b.pdf[LOBE_STRATEGY_VISIBLE], at_b.pdf[LOBE_RECOMMEND_LIGHT]);
-			const lobe_real w_l =
-				lobe_recommend_weight(at_l.pdf[LOBE_RECOMMEND_LIGHT], at_l.pdf[LOBE_STRATEGY_VISIBLE]);
-			if (pass) {
-				s = lobe_recommend_second(lobe_recommend_second(s, at_b, w_b), at_l, w_l);
-				continue;
-			}
-			s = lobe_recommend_first(lobe_recommend_first(s, at_b, w_b), at_l, w_l);
-			for (int k = 0; k < LOBE_STRATEGY_LAST + 1; k++)
-				if (lobe_recommend_looks_at(k) & lobe_recommend_covered(k, surface))
-					s.rejected[k] += lobe_recommend_draw(surface, (lobe_uint)k, wo, u).z > zero
-								 ? zero
-								 : part;
+			const lobe_vec3 b = lobe_recommend_direction(surface, wo, i);
+			const lobe_vec3 l = lobe_light_shape_draw(light, lobe_recommend_u(i));
+			lobe_light_seen at_b, at_l;
+			/* Drawn in proportion to its radiance. */
+			at_b.radiance = at_b.pdf = lobe_light_shape_density(light, b);
+			at_l.radiance = at_l.pdf = lobe_light_shape_density(light, l);
+			s = lobe_recommend_add(s, pass, i, surface, wo, b, at_b, l, at_l);
 		}
 	return s;
 }
 
 /* --- the answer --------------------------------------------------------------------------------------------------- */
 
-/* surface: of the lobe. wo: unit, above the surface. A light that the lobe does not see at all (mean 0 to the last digit)
- * is drawn from. */
-LOBE_FN_APART lobe_recommendation lobe_recommend_strategy(lobe_microsurface surface, lobe_vec3 wo,
-							  lobe_light_shape light, lobe_recommend_cost cost)
+/* Of both passes. A light that the lobe does not see at all (mean 0 to the last digit) is drawn from. */
+LOBE_FN_APART lobe_recommendation lobe_recommend_answer(lobe_recommend_sums s, lobe_microsurface surface,
+							lobe_recommend_cost cost)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	/* The default first, and its nearest. Others have to be better by more than the integrals are good for; by still
 	 * more where weights have no bound, whose rare large ones the points may miss. */
 	const lobe_real clearly = LOBE_R(0.985), unbounded = LOBE_R(0.93);
-	const lobe_recommend_sums s = lobe_recommend_integrate(surface, wo, light);
 	lobe_recommendation best;
 	best.strategy = LOBE_STRATEGY_VISIBLE;
 	best.from = LOBE_SAMPLE_LIGHT;
@@ -348,6 +386,13 @@ LOBE_FN_APART lobe_recommendation lobe_recommend_strategy(lobe_microsurface surf
 		}
 	}
 	return best;
+}
+
+/* surface: of the lobe. wo: unit, above the surface. */
+LOBE_FN_APART lobe_recommendation lobe_recommend_strategy(lobe_microsurface surface, lobe_vec3 wo,
+							  lobe_light_shape light, lobe_recommend_cost cost)
+{
+	return lobe_recommend_answer(lobe_recommend_integrate(surface, wo, light), surface, cost);
 }
 
 #endif
