@@ -1,0 +1,60 @@
+/* furnaces_white.c - the white furnace over value and angle, and what of it makes light. */
+#include <math.h>
+#include <string.h>
+
+#include "furnaces.h"
+
+static size_t values(int quick) { return quick ? 13 : 33; }
+static size_t cosines(int quick) { return quick ? 10 : 32; }
+
+static size_t units(int quick)
+{
+	furnaces_prepare();
+	return furnaces_surface_count * values(quick);
+}
+
+void furnaces_white_rows(const furnaces_surface *s, size_t i, int quick, report_rows *rows)
+{
+	const double value = furnaces_value(s, i, values(quick));
+	for (size_t k = 0; k < cosines(quick); k++) {
+		const double cosine = ((double)k + 0.5) / (double)cosines(quick);
+		const furnaces_energy e =
+			furnaces_energy_at(s, value, cosine, quick ? FURNACES_ROUGH : FURNACES_FINE);
+		report_row(rows, "%s,%s,%s,%d,%s,%.6g,%.6g,%.7f,%.7f,%.7f,%.2g", s->family, s->lobe, s->name,
+			   s->no_surface, s->axis, value, cosine, e.rgb[0], e.rgb[1], e.rgb[2], e.error);
+	}
+}
+
+static int run(int quick, size_t unit, report_rows *rows)
+{
+	furnaces_white_rows(&furnaces_surfaces[unit / values(quick)], unit % values(quick), quick, rows);
+	return 0;
+}
+
+const report_study furnaces_white = {.name = "furnaces_white",
+				     .columns = "family,lobe,name,no_surface,axis,value,cos,r,g,b,error",
+				     .units = units,
+				     .run = run};
+
+/* A film passes in one channel what it reflects in another: energy is the mean of the three. */
+int furnaces_gains(const report_table *t, const char *name, size_t *row, double *most)
+{
+	double worst = 0.0;
+	int found = 0;
+	*most = 0.0;
+	for (size_t i = 0; i < report_table_rows(t); i++) {
+		if (name ? strcmp(report_cell(t, i, "name"), name) != 0 : report_number(t, i, "no_surface") != 0.0)
+			continue;
+		const double energy =
+			(report_number(t, i, "r") + report_number(t, i, "g") + report_number(t, i, "b")) / 3.0;
+		const double above = energy - 1.0 - report_number(t, i, "error") - FURNACES_ROUNDING;
+		*most = fmax(*most, energy);
+		/* What is no number is no furnace that holds either. */
+		if (above > worst || isnan(energy)) {
+			worst = isnan(energy) ? HUGE_VAL : above;
+			*row = i;
+			found = 1;
+		}
+	}
+	return found;
+}
