@@ -77,6 +77,7 @@ typedef struct furnaces_surface {
 	furnaces_made (*make)(const struct furnaces_surface *s, double value);
 	unsigned ndf, masking, joint, across, stretch;
 	unsigned kinks;
+	double stated; /* what the lobe's header says that eval is off by, by fixed facets */
 	/* NULL: the lobe's own; tests plant theirs. */
 	lobe_rgb (*eval)(lobe_bsdf b, lobe_vec3 wo, lobe_vec3 wi);
 } furnaces_surface;
@@ -128,14 +129,20 @@ extern const report_study furnaces_white, furnaces_shown, furnaces_weak;
 /* The rows of one surface at value i of n, as furnaces_white has them. */
 void furnaces_white_rows(const furnaces_surface *s, size_t i, int quick, report_rows *rows);
 
-/* The cell of t, rows of furnaces_white, that is most above 1 by more than its error and FURNACES_ROUNDING, among the
- * surfaces of that name (NULL: of all that are surfaces). 0: there is none, and the greatest energy is *most. */
-int furnaces_gains(const report_table *t, const char *name, size_t *row, double *most);
+/* The mean of the channels: a film passes in one what it reflects in another. */
+double furnaces_mean(const report_table *t, size_t row);
+
+/* The cell of t, rows of furnaces_white, that is most above 1 by more than its error, FURNACES_ROUNDING and what the
+ * lobe states, among the surfaces of that name (NULL: of all that are surfaces). 0: there is none. *most: that cell, or
+ * the brightest. */
+int furnaces_gains(const report_table *t, const char *name, size_t *most);
 
 /* Files that the gnuplot scripts draw, and the figures in the page. */
 void furnaces_draw_maps(report_page *page, const report_table *white);
 void furnaces_draw_balls(report_page *page, const report_table *shown);
-void furnaces_write_losses(report_page *page, const report_table *shown);
+double furnaces_ball(const report_table *shown, const char *name, double value);
+void furnaces_write_balls(report_page *page, const report_table *shown);
+void furnaces_write_angles(report_page *page, const report_table *shown);
 void furnaces_write_weak(report_page *page, const report_table *weak);
 
 /* In a map's colours: 0 within 1/1000 of 1, -1 where all is lost, 1 where as much is made, by logarithm between. */

@@ -17,7 +17,8 @@ static const struct {
 	{"ideal", "without roughness"},
 	{"diffuse", "rough diffuse surfaces"},
 	{"masking", "GGX by masking, reflectance 1"},
-	{"distribution", "distributions with Smith masking, reflectance 1"},
+	{"compared", "GGX by masking that is no surface's, reflectance 1"},
+	{"distribution", "distributions with Smith's masking, reflectance 1"},
 };
 enum { FAMILIES = sizeof families / sizeof *families };
 
@@ -26,11 +27,6 @@ double furnaces_tone(double energy)
 	const double off = fabs(energy - 1.0);
 	const double size = off > 1e-3 ? fmin((log10(off) + 3.0) / 3.0, 1.0) : 0.0;
 	return energy < 1.0 ? -size : size;
-}
-
-static double mean_of(const report_table *t, size_t i)
-{
-	return (report_number(t, i, "r") + report_number(t, i, "g") + report_number(t, i, "b")) / 3.0;
 }
 
 /* --- maps --------------------------------------------------------------------------------------------------------------- */
@@ -53,7 +49,7 @@ static int write_maps(const report_table *t, const char *family, FILE *data, FIL
 			n++;
 		}
 		fprintf(data, "%.9g %.9g %.4f\n", by_alpha ? sqrt(value) : value, report_number(t, i, "cos"),
-			furnaces_tone(mean_of(t, i)));
+			furnaces_tone(furnaces_mean(t, i)));
 	}
 	return n;
 }
@@ -70,7 +66,7 @@ void furnaces_draw_maps(report_page *page, const report_table *white)
 		fclose(data);
 		fclose(titles);
 		snprintf(file, sizeof file, "furnaces_map_%s.png", families[k].family);
-		snprintf(definitions, sizeof definitions, "OUT='%s'; FAMILY='%s'", file, families[k].title);
+		snprintf(definitions, sizeof definitions, "OUT='%s'; FAMILY=\\\"%s\\\"", file, families[k].title);
 		report_gnuplot(page, "furnaces_maps.gp", definitions);
 		report_figure(page, file,
 			      "Energy kept of constant light, %s: white within 1/1000 of 1, blue where light is lost, red "
@@ -186,13 +182,13 @@ static void draw_sheet(const report_table *t, const char *const *names, int coun
 			/* The mean is a ball's last row. */
 			const int left = LEFT + column * CELL_W, top = s * CELL_H + 18;
 			draw_ball(rgb, width, left, top, &p);
-			fprintf(labels, "set label %d \"%s %g: %.3f\" at %d, %d center font \"sans,9\"\n",
+			fprintf(labels, "set label %d \"%s %g: %.3f\" at %d, %d center front font \"sans,9\"\n",
 				1000 + s * FURNACES_SHOWN + column, report_cell(t, i, "axis"),
 				report_number(t, i, "value"), c[0], left + BALL / 2, top + BALL + 11);
 			p.n = 0;
 			column++;
 		}
-		fprintf(labels, "set label %d \"%s\" at %d, %d left font \"sans,10\"\n", s + 1, names[s], LEFT,
+		fprintf(labels, "set label %d \"%s\" at %d, %d left front font \"sans,10\"\n", s + 1, names[s], LEFT,
 			s * CELL_H + 8);
 	}
 	fprintf(labels, "WIDTH = %d\nHEIGHT = %d\n", width, height);

@@ -38,7 +38,7 @@ static double at_root(double v, void *context)
 	ball *b = context;
 	const furnaces_energy e = furnaces_energy_at(b->surface, b->value, v * v, b->effort);
 	row(b->rows, b->surface, b->value, "profile", v, &e);
-	b->error = fmax(b->error, e.error);
+	b->error = fmax(b->error, e.error * 4.0 * v * v * v);
 	return (e.rgb[0] + e.rgb[1] + e.rgb[2]) / 3.0 * 4.0 * v * v * v;
 }
 
@@ -49,16 +49,22 @@ static int run(int quick, size_t unit, report_rows *rows)
 	ball b = {s, value, 0.0, quick ? FURNACES_ROUGH : FURNACES_FINE, rows};
 	gsl_function f = {at_root, &b};
 	furnaces_energy mean = {{0.0, 0.0, 0.0}, 0.0};
-	double error, scale, size;
+	/* Where masking has kinks, or a smooth surface an edge, pieces are nearer to smooth. */
+	const int pieces = quick ? 1 : 4;
 	for (int k = 0; k < ANGLES; k++) {
 		const furnaces_energy e = furnaces_energy_at(s, value, cos(angles[k] * 3.14159265358979323846 / 180.0),
 							     quick ? FURNACES_ROUGH : FURNACES_FINEST);
 		row(rows, s, value, "angle", angles[k], &e);
 	}
-	/* 10 Gauss points and 11 more (Kronrod), whose difference is what the former are off by. */
-	gsl_integration_qk21(&f, 0.0, 1.0, &mean.rgb[0], &error, &scale, &size);
+	for (int k = 0; k < pieces; k++) {
+		double part, error, scale, size;
+		/* 10 Gauss points and 11 more (Kronrod), whose difference is what the former are off by. */
+		gsl_integration_qk21(&f, (double)k / pieces, (k + 1.0) / pieces, &part, &error, &scale, &size);
+		mean.rgb[0] += part;
+		mean.error += error;
+	}
 	mean.rgb[1] = mean.rgb[2] = mean.rgb[0];
-	mean.error = error + b.error;
+	mean.error += b.error;
 	row(rows, s, value, "mean", 0.0, &mean);
 	return 0;
 }
@@ -70,50 +76,81 @@ const report_study furnaces_shown = {.name = "furnaces_shown",
 
 /* --- tables ------------------------------------------------------------------------------------------------------------- */
 
-static double mean_of(const report_table *t, size_t i)
-{
-	return (report_number(t, i, "r") + report_number(t, i, "g") + report_number(t, i, "b")) / 3.0;
-}
-
-/* What is lost, with as many digits as its error leaves: the last one printed is ten times that error or more. */
+/* In %, with two digits where its error leaves them: the last one printed is ten times that error or more. */
 static void lost_cell(report_page *page, double lost, double error)
 {
-	const double percent = 100.0 * lost, unit = 1000.0 * fmax(error, 1e-7);
-	const int digits = (int)fmin(fmax(ceil(-log10(unit) - 1e-9), 0.0), 4.0);
-	if (fabs(percent) < 0.5 * pow(10.0, -digits))
+	const double percent = 100.0 * lost, unit = 1000.0 * error;
+	const int digits = unit <= 0.01 ? 2 : unit <= 0.1 ? 1 : 0;
+	if (unit > 1.0)
+		report_text(page, " %.0f +- %.0f |", percent, 100.0 * error);
+	else if (fabs(percent) < 0.5 * pow(10.0, -digits))
 		report_text(page, " 0 |");
 	else
 		report_text(page, " %.*f |", digits, percent);
 }
 
-void furnaces_write_losses(report_page *page, const report_table *t)
+/* The row of that; ends the program where there is none. */
+static size_t row_of(const report_table *t, const char *name, double value, const char *what)
 {
-	const char *name = "", *axis = "";
-	double value = -1.0, error = 0.0;
-	for (int absorbs = 0; absorbs < 2; absorbs++) {
-		report_text(page,
-			    absorbs ? "\nThose that absorb, in %% of the light that they do not send back:\n\n"
-				    : "Light that is lost, in %%: scattered more than once on the surface, which single "
-				      "scattering leaves out; by the view's angle from the normal, and from a whole ball. "
-				      "Negative: light that is made. The last digit printed is ten times the "
-				      "quadrature's own error or more; 0: no more than that.\n\n");
-		report_text(page, "| surface | value | 0 deg | 45 | 60 | 75 | 85 | ball |\n|---|---|--:|--:|--:|--:|--:|"
-				  "--:|");
-		for (size_t i = 0; i < report_table_rows(t); i++) {
-			const char *what = report_cell(t, i, "what");
-			const double lost = 1.0 - mean_of(t, i), here = report_number(t, i, "value");
-			if ((report_number(t, i, "absorbs") != 0.0) != absorbs || strcmp(what, "profile") == 0)
-				continue;
-			error = fmax(error, report_number(t, i, "error"));
-			if (strcmp(name, report_cell(t, i, "name")) != 0 || here != value) {
-				name = report_cell(t, i, "name");
-				axis = report_cell(t, i, "axis");
-				value = here;
-				report_text(page, "\n| %s | %s %g |", name, axis, value);
-			}
-			lost_cell(page, lost, report_number(t, i, "error"));
+	for (size_t i = 0; i < report_table_rows(t); i++)
+		if (strcmp(report_cell(t, i, "name"), name) == 0 && strcmp(report_cell(t, i, "what"), what) == 0 &&
+		    fabs(report_number(t, i, "value") - value) < 1e-6 * fmax(value, 1.0))
+			return i;
+	fprintf(stderr, "report: no rows of %s\n", name);
+	exit(1);
+}
+
+double furnaces_ball(const report_table *t, const char *name, double value)
+{
+	return furnaces_mean(t, row_of(t, name, value, "mean"));
+}
+
+void furnaces_write_balls(report_page *page, const report_table *t)
+{
+	report_text(page, "Light that a whole ball loses, in %%: what was scattered more than once on the surface, which "
+			  "single scattering leaves out. Negative: light that is made. The last digit printed is ten "
+			  "times the quadrature's own error or more; 0: no more than that.\n\n| surface | alpha |");
+	for (int k = 0; k < FURNACES_SHOWN; k++)
+		report_text(page, " %g |", furnaces_surfaces[0].shown[k]);
+	report_text(page, "\n|---|---|--:|--:|--:|--:|--:|\n");
+	for (size_t s = 0; s < furnaces_surface_count; s++) {
+		const furnaces_surface *surface = &furnaces_surfaces[s];
+		if (!furnaces_by_alpha(surface))
+			continue;
+		report_text(page, "| %s | |", surface->name);
+		for (int k = 0; k < FURNACES_SHOWN; k++) {
+			const size_t i = row_of(t, surface->name, surface->shown[k], "mean");
+			lost_cell(page, 1.0 - furnaces_mean(t, i), report_number(t, i, "error"));
 		}
 		report_text(page, "\n");
 	}
-	report_text(page, "\nThe error of any of these numbers is at most %.1g %%.\n\n", 100.0 * error);
+	report_text(page, "\n");
+}
+
+void furnaces_write_angles(report_page *page, const report_table *t)
+{
+	const char *name = "", *family = "";
+	double value = -1.0, error = 0.0;
+	report_text(page, "<details><summary>Light that is not sent back, in %%, by the view's angle from the normal, of "
+			  "every surface</summary>\n\n| surface | value | 0 deg | 45 | 60 | 75 | 85 | ball |\n"
+			  "|---|---|--:|--:|--:|--:|--:|--:|");
+	for (size_t i = 0; i < report_table_rows(t); i++) {
+		const double here = report_number(t, i, "value");
+		if (strcmp(report_cell(t, i, "what"), "profile") == 0)
+			continue;
+		if (strcmp(family, report_cell(t, i, "family")) != 0) {
+			family = report_cell(t, i, "family");
+			report_text(page, "\n| *%s* | | | | | | | |", family);
+		}
+		if (strcmp(name, report_cell(t, i, "name")) != 0 || here != value) {
+			name = report_cell(t, i, "name");
+			value = here;
+			report_text(page, "\n| %s%s | %s %g |", name,
+				    report_number(t, i, "absorbs") != 0.0 ? " (absorbs)" : "",
+				    report_cell(t, i, "axis"), value);
+		}
+		error = fmax(error, report_number(t, i, "error"));
+		lost_cell(page, 1.0 - furnaces_mean(t, i), report_number(t, i, "error"));
+	}
+	report_text(page, "\n\n</details>\n\nThe error of any of these numbers is at most %.1g %%.\n\n", 100.0 * error);
 }

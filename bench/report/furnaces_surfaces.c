@@ -178,10 +178,15 @@ MAKE(microfacet_diffuse)
 #define REFLECTS   .axis = "reflectance", .from = 0.05, .to = 1.0, .shown = {0.2, 0.4, 0.6, 0.8, 1.0}
 #define EXTINCTION .axis = "extinction k", .from = 0.5, .to = 8.0, .shown = {1.0, 2.0, 3.0, 5.0, 8.0}
 
+/* lobes/microfacet_diffuse.h */
+#define DIFFUSE(name_, ...)                                                                                            \
+	SURFACE("diffuse", microfacet_diffuse, microfacet_diffuse, name_, ALPHA, .way = FURNACES_HEMISPHERE,           \
+		.stated = 0.023, __VA_ARGS__)
 #define SURFACE(family_, lobe_, make_, name_, ...)                                                                     \
 	{.family = family_, .lobe = #lobe_, .name = name_, .make = make_, __VA_ARGS__}
 #define MASKED(name_, ...) SURFACE("masking", microfacet_conductor, microfacet_conductor, name_, ALPHA, __VA_ARGS__)
-#define NO_SURFACE(name_, ...) MASKED(name_, .no_surface = 1, __VA_ARGS__)
+#define NO_SURFACE(name_, ...)                                                                                         \
+	SURFACE("compared", microfacet_conductor, microfacet_conductor, name_, ALPHA, .no_surface = 1, __VA_ARGS__)
 #define SHAPE(name_, shape)                                                                                            \
 	SURFACE("distribution", microfacet_conductor, microfacet_conductor, name_, ALPHA, .ndf = shape)
 #define LEVEL    .kinks = 1u << FURNACES_LEVEL
@@ -221,12 +226,9 @@ const furnaces_surface furnaces_surfaces[] = {
 		.way = FURNACES_EVENTS, .inside = 1),
 	SURFACE("ideal", thin_dielectric, thin_dielectric, "thin_dielectric", INDEX, .way = FURNACES_EVENTS),
 
-	SURFACE("diffuse", microfacet_diffuse, microfacet_diffuse, "microfacet_diffuse GGX", ALPHA,
-		.way = FURNACES_HEMISPHERE),
-	SURFACE("diffuse", microfacet_diffuse, microfacet_diffuse, "microfacet_diffuse Beckmann", ALPHA,
-		.way = FURNACES_HEMISPHERE, .ndf = BECKMANN),
-	SURFACE("diffuse", microfacet_diffuse, microfacet_diffuse, "microfacet_diffuse Beckmann V-cavities", ALPHA,
-		.way = FURNACES_HEMISPHERE, .ndf = BECKMANN, .masking = LOBE_MASKING_VCAVITY),
+	DIFFUSE("microfacet_diffuse GGX", .ndf = GGX),
+	DIFFUSE("microfacet_diffuse Beckmann", .ndf = BECKMANN),
+	DIFFUSE("microfacet_diffuse Beckmann V-cavities", .ndf = BECKMANN, .masking = LOBE_MASKING_VCAVITY),
 
 	MASKED("Smith height-correlated", .joint = LOBE_JOINT_HEIGHT),
 	MASKED("Smith separable", .joint = LOBE_JOINT_SEPARABLE),
@@ -234,6 +236,7 @@ const furnaces_surface furnaces_surfaces[] = {
 	MASKED("Smith height and direction", .joint = LOBE_JOINT_HEIGHT_DIRECTION, LEVEL),
 	MASKED("V-cavities", .masking = LOBE_MASKING_VCAVITY, CAVITIES),
 	MASKED("Beckmann Smith rational", .ndf = BECKMANN, .masking = LOBE_MASKING_SMITH_RATIONAL),
+
 	NO_SURFACE("none", .masking = LOBE_MASKING_NONE),
 	NO_SURFACE("implicit", .masking = LOBE_MASKING_IMPLICIT),
 	NO_SURFACE("Schlick-Smith alpha/2", .masking = LOBE_MASKING_SCHLICK_GGX),

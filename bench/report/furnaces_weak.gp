@@ -2,6 +2,7 @@
 load "furnaces_weak_titles.gp"
 set terminal pngcairo size 1640, 1450 noenhanced font "sans,11"
 set tics out nomirror
+set xtics 0.2
 unset key
 set xlabel "roughness sqrt(alpha)" offset 0, 0.5
 set ylabel "cosine of the view" offset 1.5
@@ -19,14 +20,14 @@ do for [k = 1:|OWN|] {
 }
 unset multiplot
 
-set terminal pngcairo size 1640, 760 noenhanced font "sans,11"
+set terminal pngcairo size 1800, 760 noenhanced font "sans,11"
 set output "furnaces_weak_others.png"
 unset logscale cb
 set format cb "%g"
 set palette defined (-1 "#08306b", -0.6667 "#2b7bba", -0.3333 "#a6cde4", -0.08 "#eef5fb", 0 "#ffffff", \
 	0.08 "#fff0ea", 0.3333 "#fcae91", 0.6667 "#ef3b2c", 1 "#67000d")
 set cbrange [-1:1]
-set cbtics ("0" -1, "0.9" -0.6667, "0.99" -0.3333, "1" 0, "1.01" 0.3333, "1.1" 0.6667, "2 and more" 1)
+set cbtics ("0" -1, "0.9" -0.6667, "0.99" -0.3333, "1" 0, "1.01" 0.3333, "1.1" 0.6667, "2" 1)
 set multiplot layout 2, 4 title "weak furnace of masking that is no surface's: 1 (white) would hold" font "sans,13"
 do for [k = 1:|OTHERS|] {
 	set title OTHERS[k] offset 0, -0.6

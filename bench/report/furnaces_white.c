@@ -20,8 +20,8 @@ void furnaces_white_rows(const furnaces_surface *s, size_t i, int quick, report_
 		const double cosine = ((double)k + 0.5) / (double)cosines(quick);
 		const furnaces_energy e =
 			furnaces_energy_at(s, value, cosine, quick ? FURNACES_ROUGH : FURNACES_FINE);
-		report_row(rows, "%s,%s,%s,%d,%s,%.6g,%.6g,%.7f,%.7f,%.7f,%.2g", s->family, s->lobe, s->name,
-			   s->no_surface, s->axis, value, cosine, e.rgb[0], e.rgb[1], e.rgb[2], e.error);
+		report_row(rows, "%s,%s,%s,%d,%g,%s,%.6g,%.6g,%.7f,%.7f,%.7f,%.2g", s->family, s->lobe, s->name,
+			   s->no_surface, s->stated, s->axis, value, cosine, e.rgb[0], e.rgb[1], e.rgb[2], e.error);
 	}
 }
 
@@ -32,29 +32,32 @@ static int run(int quick, size_t unit, report_rows *rows)
 }
 
 const report_study furnaces_white = {.name = "furnaces_white",
-				     .columns = "family,lobe,name,no_surface,axis,value,cos,r,g,b,error",
+				     .columns = "family,lobe,name,no_surface,stated,axis,value,cos,r,g,b,error",
 				     .units = units,
 				     .run = run};
 
-/* A film passes in one channel what it reflects in another: energy is the mean of the three. */
-int furnaces_gains(const report_table *t, const char *name, size_t *row, double *most)
+double furnaces_mean(const report_table *t, size_t row)
 {
-	double worst = 0.0;
+	return (report_number(t, row, "r") + report_number(t, row, "g") + report_number(t, row, "b")) / 3.0;
+}
+
+int furnaces_gains(const report_table *t, const char *name, size_t *most)
+{
+	double worst = 0.0, brightest = -HUGE_VAL;
 	int found = 0;
-	*most = 0.0;
 	for (size_t i = 0; i < report_table_rows(t); i++) {
 		if (name ? strcmp(report_cell(t, i, "name"), name) != 0 : report_number(t, i, "no_surface") != 0.0)
 			continue;
-		const double energy =
-			(report_number(t, i, "r") + report_number(t, i, "g") + report_number(t, i, "b")) / 3.0;
-		const double above = energy - 1.0 - report_number(t, i, "error") - FURNACES_ROUNDING;
-		*most = fmax(*most, energy);
-		/* What is no number is no furnace that holds either. */
-		if (above > worst || isnan(energy)) {
-			worst = isnan(energy) ? HUGE_VAL : above;
-			*row = i;
-			found = 1;
-		}
+		const double energy = furnaces_mean(t, i);
+		/* What is no number is no furnace that holds. */
+		const double above = isnan(energy) ? HUGE_VAL
+						   : energy - 1.0 - report_number(t, i, "error") - FURNACES_ROUNDING -
+							     report_number(t, i, "stated");
+		if (above > worst || (!found && energy > brightest))
+			*most = i;
+		found |= above > worst;
+		worst = fmax(worst, above);
+		brightest = fmax(brightest, energy);
 	}
 	return found;
 }
