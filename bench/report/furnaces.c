@@ -8,20 +8,23 @@
 
 static void write_losses(report_page *page, const report_table *shown)
 {
-	report_finding(page,
-		       "Single scattering loses %.1f %% of the light on a white ball of GGX metal at alpha 1, %.1f %% at "
-		       ".6, %.1f %% at .3, %.1f %% at .1; Beckmann's %.1f, %.1f, %.1f and %.1f %%; GGX glass 1.5 %.1f, "
-		       "%.1f, %.1f and %.1f %%",
-		       100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 1.0)), 100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.6)),
-		       100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.3)), 100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.1)),
-		       100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 1.0)),
-		       100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.6)),
-		       100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.3)),
-		       100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.1)),
-		       100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 1.0)),
-		       100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.6)),
-		       100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.3)),
-		       100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.1)));
+	report_finding(
+		page,
+		"Single scattering loses %.1f %% of the light on a white ball of GGX metal at alpha 1, %.1f %% at "
+		".6, %.1f %% at .3, %.1f %% at .1; Beckmann's %.1f, %.1f, %.1f and %.1f %%; GGX glass 1.5 %.1f, "
+		"%.1f, %.1f and %.1f %%",
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 1.0)),
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.3)),
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.1)),
+		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 1.0)),
+		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.3)),
+		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.1)),
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 1.0)),
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.3)),
+		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.1)));
 }
 
 /* Surfaces that make light: none should; and those that are no surfaces and do. */
@@ -46,37 +49,42 @@ static void write_gains(report_page *page, const report_table *white)
 	}
 	const int gains = furnaces_gains(white, NULL, &most);
 	char at[256];
-	snprintf(at, sizeof at, "%.6f, %s at %s %s and cosine %s, its quadrature good to %s", furnaces_mean(white, most),
-		 report_cell(white, most, "name"), report_cell(white, most, "axis"), report_cell(white, most, "value"),
-		 report_cell(white, most, "cos"), report_cell(white, most, "error"));
+	snprintf(at, sizeof at, "%.6f, %s at %s %s and cosine %s, its quadrature good to %s",
+		 furnaces_mean(white, most), report_cell(white, most, "name"), report_cell(white, most, "axis"),
+		 report_cell(white, most, "value"), report_cell(white, most, "cos"), report_cell(white, most, "error"));
 	if (gains)
 		report_finding(page, "**A surface makes light**: it sends back %s", at);
 	else
-		report_finding(page,
-			       "No surface makes light: of %zu white furnaces of %zu surfaces none is above 1 by more than "
-			       "the quadrature's error (%.0e at worst) and what the lobe's header says that fixed facets are "
-			       "off by; the brightest is %s. Of masking that is no surface's these do: %s",
-			       cells, surfaces, error, at, used ? makers : "none");
+		report_finding(
+			page,
+			"No surface makes light: of %zu white furnaces of %zu surfaces none is above 1 by more than "
+			"the quadrature's error (%.0e at worst) and what the lobe's header says that fixed facets are "
+			"off by; the brightest is %s. Of masking that is no surface's these do: %s",
+			cells, surfaces, error, at, used ? makers : "none");
 }
 
 static void write_maskings(report_page *page, const report_table *shown)
 {
-	report_finding(page,
-		       "On a GGX ball of alpha .6 masking decides how much is lost: height-correlated %.1f %%, separable "
-		       "%.1f %%, V-cavities %.1f %%, Schlick-Smith with alpha/2 %.1f %%, Disney's %.1f %%, implicit %.1f %%",
-		       100.0 * (1.0 - furnaces_ball(shown, "Smith height-correlated", 0.6)),
-		       100.0 * (1.0 - furnaces_ball(shown, "Smith separable", 0.6)), 100.0 * (1.0 - furnaces_ball(shown, "V-cavities", 0.6)),
-		       100.0 * (1.0 - furnaces_ball(shown, "Schlick-Smith alpha/2", 0.6)),
-		       100.0 * (1.0 - furnaces_ball(shown, "Disney", 0.6)), 100.0 * (1.0 - furnaces_ball(shown, "implicit", 0.6)));
+	report_finding(
+		page,
+		"On a GGX ball of alpha .6 masking decides how much is lost: height-correlated %.1f %%, separable "
+		"%.1f %%, V-cavities %.1f %%, Schlick-Smith with alpha/2 %.1f %%, Disney's %.1f %%, implicit %.1f %%",
+		100.0 * (1.0 - furnaces_ball(shown, "Smith height-correlated", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "Smith separable", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "V-cavities", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "Schlick-Smith alpha/2", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "Disney", 0.6)),
+		100.0 * (1.0 - furnaces_ball(shown, "implicit", 0.6)));
 }
 
 static void write(report_page *page, const report_table *const *tables, int quick)
 {
 	(void)quick;
-	report_text(page,
-		    "What a surface sends back of constant light 1, by quadrature over its facets (tests/test_report_furnaces.c "
-		    "holds it against closed forms); each number's error is what doubling the points changes. Every lobe is "
-		    "made white: reflectance 1, or as little absorption as its parameters allow.\n\n");
+	report_text(page, "What a surface sends back of constant light 1, by quadrature over its facets "
+			  "(tests/test_report_furnaces.c "
+			  "holds it against closed forms); each number's error is what doubling the points changes. "
+			  "Every lobe is "
+			  "made white: reflectance 1, or as little absorption as its parameters allow.\n\n");
 	write_losses(page, tables[1]);
 	write_gains(page, tables[0]);
 	write_maskings(page, tables[1]);

@@ -71,7 +71,7 @@ typedef struct furnaces_surface {
 	double from, to;    /* of maps: even steps of the value, or of sqrt(alpha) */
 	double shown[FURNACES_SHOWN];
 	furnaces_way way;
-	int inside;	/* seen from below */
+	int inside;     /* seen from below */
 	int no_surface; /* masking that is no surface's, to be compared: may make light */
 	int absorbs;    /* what is missing is not lost by scattering once */
 	furnaces_made (*make)(const struct furnaces_surface *s, double value);

@@ -134,9 +134,10 @@ static splits split(const furnaces_integrand *f, double c, double s, int steps)
 			const furnaces_facet m = facet_at(f, c, s, y);
 			const int positive = cut(f, (furnaces_cut)k, &m) > 0.0;
 			if (i > 0 && positive != last)
-				add_split(&all,
-					  zero_between(f, (furnaces_cut)k, c, s, (double)(i - 1) / steps * LAST, y, last),
-					  (furnaces_cut)k);
+				add_split(
+					&all,
+					zero_between(f, (furnaces_cut)k, c, s, (double)(i - 1) / steps * LAST, y, last),
+					(furnaces_cut)k);
 			last = positive;
 		}
 	}
@@ -149,7 +150,8 @@ static splits split(const furnaces_integrand *f, double c, double s, int steps)
 
 /* Where light begins to be refracted everything goes with the root of the distance: points crowd at the ends of such
  * pieces as v^2 (3 - 2 v). */
-static void along(const furnaces_integrand *f, double phi, double weight, const double (*nodes)[2], size_t n, double sum[3])
+static void along(const furnaces_integrand *f, double phi, double weight, const double (*nodes)[2], size_t n,
+		  double sum[3])
 {
 	const double c = cos(phi), s = sin(phi);
 	const splits all = split(f, c, s, steps_of(f, n));

@@ -68,10 +68,11 @@ void furnaces_draw_maps(report_page *page, const report_table *white)
 		snprintf(file, sizeof file, "furnaces_map_%s.png", families[k].family);
 		snprintf(definitions, sizeof definitions, "OUT='%s'; FAMILY=\\\"%s\\\"", file, families[k].title);
 		report_gnuplot(page, "furnaces_maps.gp", definitions);
-		report_figure(page, file,
-			      "Energy kept of constant light, %s: white within 1/1000 of 1, blue where light is lost, red "
-			      "where it is made, by logarithm.",
-			      families[k].title);
+		report_figure(
+			page, file,
+			"Energy kept of constant light, %s: white within 1/1000 of 1, blue where light is lost, red "
+			"where it is made, by logarithm.",
+			families[k].title);
 	}
 }
 
@@ -200,11 +201,12 @@ static void draw_sheet(const report_table *t, const char *const *names, int coun
 
 void furnaces_draw_balls(report_page *page, const report_table *shown)
 {
-	report_text(page,
-		    "### Balls in the furnace\n\nEach ball is lit by radiance 1 from everywhere: one that loses nothing "
-		    "vanishes into the background, one that loses light is darker, one that makes it brighter. Below "
-		    "stands what it sends back of the light that falls on it. Glass is a half space of it: inside, the "
-		    "light is as strong as in balance with that outside.\n\n");
+	report_text(
+		page,
+		"### Balls in the furnace\n\nEach ball is lit by radiance 1 from everywhere: one that loses nothing "
+		"vanishes into the background, one that loses light is darker, one that makes it brighter. Below "
+		"stands what it sends back of the light that falls on it. Glass is a half space of it: inside, the "
+		"light is as strong as in balance with that outside.\n\n");
 	for (int k = 0; k < FAMILIES; k++) {
 		const char *names[32];
 		char definitions[256], file[64];

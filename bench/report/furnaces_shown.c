@@ -38,7 +38,7 @@ static double at_root(double v, void *context)
 	ball *b = context;
 	const furnaces_energy e = furnaces_energy_at(b->surface, b->value, v * v, b->effort);
 	row(b->rows, b->surface, b->value, "profile", v, &e);
-	b->error = fmax(b->error, e.error * 4.0 * v * v * v);
+	b->error += e.error * 4.0 * v * v * v / 21.0;
 	return (e.rgb[0] + e.rgb[1] + e.rgb[2]) / 3.0 * 4.0 * v * v * v;
 }
 
@@ -64,7 +64,8 @@ static int run(int quick, size_t unit, report_rows *rows)
 		mean.error += error;
 	}
 	mean.rgb[1] = mean.rgb[2] = mean.rgb[0];
-	mean.error += b.error;
+	/* And the mean of the nodes' own. */
+	mean.error += b.error / pieces;
 	row(rows, s, value, "mean", 0.0, &mean);
 	return 0;
 }
@@ -82,7 +83,7 @@ static void lost_cell(report_page *page, double lost, double error)
 	const double percent = 100.0 * lost, unit = 1000.0 * error;
 	const int digits = unit <= 0.01 ? 2 : unit <= 0.1 ? 1 : 0;
 	if (unit > 1.0)
-		report_text(page, " %.0f +- %.0f |", percent, 100.0 * error);
+		report_text(page, " %.1f +- %.1f |", percent, 100.0 * error);
 	else if (fabs(percent) < 0.5 * pow(10.0, -digits))
 		report_text(page, " 0 |");
 	else
@@ -107,17 +108,18 @@ double furnaces_ball(const report_table *t, const char *name, double value)
 
 void furnaces_write_balls(report_page *page, const report_table *t)
 {
-	report_text(page, "Light that a whole ball loses, in %%: what was scattered more than once on the surface, which "
-			  "single scattering leaves out. Negative: light that is made. The last digit printed is ten "
-			  "times the quadrature's own error or more; 0: no more than that.\n\n| surface | alpha |");
+	report_text(page,
+		    "Light that a whole ball loses, in %%: what was scattered more than once on the surface, which "
+		    "single scattering leaves out. Negative: light that is made. The last digit printed is ten "
+		    "times the quadrature's own error or more; 0: no more than that.\n\n| surface |");
 	for (int k = 0; k < FURNACES_SHOWN; k++)
-		report_text(page, " %g |", furnaces_surfaces[0].shown[k]);
-	report_text(page, "\n|---|---|--:|--:|--:|--:|--:|\n");
+		report_text(page, " alpha %g |", furnaces_surfaces[0].shown[k]);
+	report_text(page, "\n|---|--:|--:|--:|--:|--:|\n");
 	for (size_t s = 0; s < furnaces_surface_count; s++) {
 		const furnaces_surface *surface = &furnaces_surfaces[s];
 		if (!furnaces_by_alpha(surface))
 			continue;
-		report_text(page, "| %s | |", surface->name);
+		report_text(page, "| %s |", surface->name);
 		for (int k = 0; k < FURNACES_SHOWN; k++) {
 			const size_t i = row_of(t, surface->name, surface->shown[k], "mean");
 			lost_cell(page, 1.0 - furnaces_mean(t, i), report_number(t, i, "error"));
@@ -131,9 +133,10 @@ void furnaces_write_angles(report_page *page, const report_table *t)
 {
 	const char *name = "", *family = "";
 	double value = -1.0, error = 0.0;
-	report_text(page, "<details><summary>Light that is not sent back, in %%, by the view's angle from the normal, of "
-			  "every surface</summary>\n\n| surface | value | 0 deg | 45 | 60 | 75 | 85 | ball |\n"
-			  "|---|---|--:|--:|--:|--:|--:|--:|");
+	report_text(page,
+		    "<details><summary>Light that is not sent back, in %%, by the view's angle from the normal, of "
+		    "every surface</summary>\n\n| surface | value | 0 deg | 45 | 60 | 75 | 85 | ball |\n"
+		    "|---|---|--:|--:|--:|--:|--:|--:|");
 	for (size_t i = 0; i < report_table_rows(t); i++) {
 		const double here = report_number(t, i, "value");
 		if (strcmp(report_cell(t, i, "what"), "profile") == 0)

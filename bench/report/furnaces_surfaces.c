@@ -9,8 +9,8 @@
 /* --- distributions ---------------------------------------------------------------------------------------------------- */
 
 enum { GGX, BECKMANN, PHONG, GTR_15, GTR_3, STUDENT_18, STUDENT_4, EXPONENTIAL };
-const char *const furnaces_shape_names[FURNACES_SHAPES] = {
-	"GGX", "Beckmann", "Phong 20", "GTR 1.5", "GTR 3", "Student-T 1.8", "Student-T 4", "exp(-3 tan)"};
+const char *const furnaces_shape_names[FURNACES_SHAPES] = {"GGX",   "Beckmann",      "Phong 20",    "GTR 1.5",
+							   "GTR 3", "Student-T 1.8", "Student-T 4", "exp(-3 tan)"};
 
 static lobe_distribution shapes[FURNACES_SHAPES];
 static float tables[FURNACES_SHAPES][LOBE_PROFILE_WORDS];
@@ -31,8 +31,8 @@ void furnaces_prepare(void)
 	failed |= lobe_distribution_gtr(&shapes[GTR_3], tables[GTR_3], LOBE_PROFILE_WORDS, 3.0f, 0.5f);
 	failed |= lobe_distribution_student_t(&shapes[STUDENT_18], tables[STUDENT_18], LOBE_PROFILE_WORDS, 1.8f);
 	failed |= lobe_distribution_student_t(&shapes[STUDENT_4], tables[STUDENT_4], LOBE_PROFILE_WORDS, 4.0f);
-	failed |= lobe_distribution_tabulated(&shapes[EXPONENTIAL], tables[EXPONENTIAL], LOBE_PROFILE_WORDS, falls,
-					      NULL);
+	failed |=
+		lobe_distribution_tabulated(&shapes[EXPONENTIAL], tables[EXPONENTIAL], LOBE_PROFILE_WORDS, falls, NULL);
 	if (failed != LOBE_OK) {
 		fprintf(stderr, "report: %s\n", lobe_error_message());
 		exit(1);
@@ -40,14 +40,17 @@ void furnaces_prepare(void)
 }
 
 /* The densities of slopes of four fall with r^-3 to r^-6, the others faster. */
-int furnaces_shape_tail(unsigned shape) { return shape == GGX || shape == GTR_15 || shape == GTR_3 || shape == STUDENT_18 ? 3 : 1; }
+int furnaces_shape_tail(unsigned shape)
+{
+	return shape == GGX || shape == GTR_15 || shape == GTR_3 || shape == STUDENT_18 ? 3 : 1;
+}
 
 lobe_microsurface furnaces_microsurface(unsigned shape, double alpha, double alpha_y)
 {
 	const lobe_distribution d = shapes[shape];
 	const double like = (double)lobe_distribution_like_ggx(d);
-	return lobe_microsurface_make(d, lobe_linear_make((float)(alpha / like), 0.0f, 0.0f, (float)(alpha_y / like),
-							  0.0f, 0.0f));
+	return lobe_microsurface_make(
+		d, lobe_linear_make((float)(alpha / like), 0.0f, 0.0f, (float)(alpha_y / like), 0.0f, 0.0f));
 }
 
 /* --- how each is made --------------------------------------------------------------------------------------------------- */
@@ -87,8 +90,7 @@ MAKE(ggx_schlick)
 MAKE(iridescent_conductor)
 {
 	const float a = (float)value;
-	MADE(iridescent_conductor, value, value, 0.0,
-	     lobe_iridescent_conductor_make(a, a, 400.0f, 1.33f, WHITE_METAL));
+	MADE(iridescent_conductor, value, value, 0.0, lobe_iridescent_conductor_make(a, a, 400.0f, 1.33f, WHITE_METAL));
 }
 MAKE(ggx_dielectric)
 {
@@ -129,16 +131,13 @@ MAKE(film_on_glass)
 {
 	const float a = (float)FILM_ALPHA;
 	MADE(iridescent_dielectric, FILM_ALPHA, FILM_ALPHA, 1.5,
-	     lobe_iridescent_dielectric_transport(
-		     lobe_iridescent_dielectric_make(a, a, (float)value, 1.33f, 1.5f), LOBE_TRANSPORT_IMPORTANCE));
+	     lobe_iridescent_dielectric_transport(lobe_iridescent_dielectric_make(a, a, (float)value, 1.33f, 1.5f),
+						  LOBE_TRANSPORT_IMPORTANCE));
 }
 
 MAKE(lambert) { MADE(lambert, 1.0, 1.0, 0.0, lobe_lambert_make(grey(value))); }
 MAKE(mirror) { MADE(mirror, 1.0, 1.0, 0.0, lobe_mirror_make(grey(value))); }
-MAKE(smooth_conductor)
-{
-	MADE(smooth_conductor, 1.0, 1.0, 0.0, lobe_smooth_conductor_make(grey(0.2), grey(value)));
-}
+MAKE(smooth_conductor) { MADE(smooth_conductor, 1.0, 1.0, 0.0, lobe_smooth_conductor_make(grey(0.2), grey(value))); }
 MAKE(smooth_dielectric)
 {
 	MADE(smooth_dielectric, 1.0, 1.0, value,
@@ -148,8 +147,9 @@ MAKE(thin_dielectric) { MADE(thin_dielectric, 1.0, 1.0, value, lobe_thin_dielect
 
 static lobe_microsurface chosen(const furnaces_surface *s, double alpha)
 {
-	return lobe_microsurface_joint(lobe_microsurface_masking(furnaces_microsurface(s->ndf, alpha, alpha), s->masking),
-				       s->joint, s->across);
+	return lobe_microsurface_joint(
+		lobe_microsurface_masking(furnaces_microsurface(s->ndf, alpha, alpha), s->masking), s->joint,
+		s->across);
 }
 MAKE(microfacet_conductor)
 {
@@ -160,10 +160,10 @@ MAKE(microfacet_conductor)
 MAKE(microfacet_dielectric)
 {
 	MADE(microfacet_dielectric, value, value, 1.5,
-	     lobe_microfacet_dielectric_transport(
-		     lobe_microfacet_dielectric_make(chosen(s, value), lobe_fresnel_model_dielectric(), 1.5f,
-						     LOBE_STRATEGY_VISIBLE),
-		     LOBE_TRANSPORT_IMPORTANCE));
+	     lobe_microfacet_dielectric_transport(lobe_microfacet_dielectric_make(chosen(s, value),
+										  lobe_fresnel_model_dielectric(), 1.5f,
+										  LOBE_STRATEGY_VISIBLE),
+						  LOBE_TRANSPORT_IMPORTANCE));
 }
 MAKE(microfacet_diffuse)
 {
@@ -183,7 +183,9 @@ MAKE(microfacet_diffuse)
 	SURFACE("diffuse", microfacet_diffuse, microfacet_diffuse, name_, ALPHA, .way = FURNACES_HEMISPHERE,           \
 		.stated = 0.023, __VA_ARGS__)
 #define SURFACE(family_, lobe_, make_, name_, ...)                                                                     \
-	{.family = family_, .lobe = #lobe_, .name = name_, .make = make_, __VA_ARGS__}
+	{                                                                                                              \
+		.family = family_, .lobe = #lobe_, .name = name_, .make = make_, __VA_ARGS__                           \
+	}
 #define MASKED(name_, ...) SURFACE("masking", microfacet_conductor, microfacet_conductor, name_, ALPHA, __VA_ARGS__)
 #define NO_SURFACE(name_, ...)                                                                                         \
 	SURFACE("compared", microfacet_conductor, microfacet_conductor, name_, ALPHA, .no_surface = 1, __VA_ARGS__)
@@ -196,15 +198,13 @@ const furnaces_surface furnaces_surfaces[] = {
 	SURFACE("metal", ggx_conductor, ggx_conductor, "ggx_conductor", ALPHA),
 	SURFACE("metal", ggx_conductor, ggx_conductor, "ggx_conductor alpha : alpha/4", ALPHA, .stretch = 1),
 	SURFACE("metal", ggx_conductor, ggx_conductor, "ggx_conductor alpha/4 : alpha", ALPHA, .stretch = 2),
-	SURFACE("metal", beckmann_conductor, beckmann_conductor, "beckmann_conductor", ALPHA,
-		.ndf = BECKMANN),
+	SURFACE("metal", beckmann_conductor, beckmann_conductor, "beckmann_conductor", ALPHA, .ndf = BECKMANN),
 	SURFACE("metal", ggx_schlick, ggx_schlick, "ggx_schlick", ALPHA),
 	SURFACE("metal", iridescent_conductor, iridescent_conductor, "iridescent_conductor 400 nm", ALPHA),
 
 	SURFACE("glass", ggx_dielectric, ggx_dielectric, "ggx_dielectric 1.5", ALPHA),
 	SURFACE("glass", ggx_dielectric, ggx_dielectric, "ggx_dielectric 1.5 from inside", ALPHA, .inside = 1),
-	SURFACE("glass", beckmann_dielectric, beckmann_dielectric, "beckmann_dielectric 1.5", ALPHA,
-		.ndf = BECKMANN),
+	SURFACE("glass", beckmann_dielectric, beckmann_dielectric, "beckmann_dielectric 1.5", ALPHA, .ndf = BECKMANN),
 	SURFACE("glass", beckmann_dielectric, beckmann_dielectric, "beckmann_dielectric 1.5 from inside", ALPHA,
 		.inside = 1, .ndf = BECKMANN),
 	SURFACE("glass", microfacet_dielectric, microfacet_dielectric, "microfacet_dielectric 1.5 beta across", ALPHA,
@@ -237,7 +237,7 @@ const furnaces_surface furnaces_surfaces[] = {
 	MASKED("V-cavities", .masking = LOBE_MASKING_VCAVITY, CAVITIES),
 	MASKED("Beckmann Smith rational", .ndf = BECKMANN, .masking = LOBE_MASKING_SMITH_RATIONAL),
 
-	NO_SURFACE("none", .masking = LOBE_MASKING_NONE),
+	NO_SURFACE("no masking", .masking = LOBE_MASKING_NONE),
 	NO_SURFACE("implicit", .masking = LOBE_MASKING_IMPLICIT),
 	NO_SURFACE("Schlick-Smith alpha/2", .masking = LOBE_MASKING_SCHLICK_GGX),
 	NO_SURFACE("Schlick-Smith alpha sqrt(2/pi)", .masking = LOBE_MASKING_SCHLICK_SMITH),

@@ -18,7 +18,7 @@ static pair pair_at(size_t i)
 {
 	static const pair others[OTHERS] = {
 		{"Smith rational", LOBE_MASKING_SMITH_RATIONAL, 1, 0},
-		{"none", LOBE_MASKING_NONE, 0, 0},
+		{"no masking", LOBE_MASKING_NONE, 0, 0},
 		{"implicit", LOBE_MASKING_IMPLICIT, 0, 0},
 		{"Schlick-Smith alpha/2", LOBE_MASKING_SCHLICK_GGX, 0, 0},
 		{"Schlick-Smith alpha sqrt(2/pi)", LOBE_MASKING_SCHLICK_SMITH, 0, 0},
@@ -48,8 +48,8 @@ static int run(int quick, size_t unit, report_rows *rows)
 	for (size_t k = 0; k < cosines(quick); k++) {
 		const double cosine = ((double)k + 0.5) / (double)cosines(quick);
 		const furnaces_energy e = furnaces_weak_at(p.shape, p.what, alpha, cosine, 0.0);
-		const double known = p.shape == 0 || p.must_hold ? furnaces_weak_known(p.what, alpha, cosine)
-								 : (double)NAN;
+		const double known =
+			p.shape == 0 || p.must_hold ? furnaces_weak_known(p.what, alpha, cosine) : (double)NAN;
 		char closed[32] = "";
 		if (!isnan(known))
 			snprintf(closed, sizeof closed, "%.9g", known);
@@ -75,8 +75,17 @@ typedef struct {
 
 static summary summary_from(const report_table *t, size_t first)
 {
-	summary s = {report_cell(t, first, "masking"), report_cell(t, first, "distribution"), first, 0,
-		     report_number(t, first, "must_hold") != 0.0, HUGE_VAL, -HUGE_VAL, {0, 0}, {0, 0}, 0.0, 0.0,
+	summary s = {report_cell(t, first, "masking"),
+		     report_cell(t, first, "distribution"),
+		     first,
+		     0,
+		     report_number(t, first, "must_hold") != 0.0,
+		     HUGE_VAL,
+		     -HUGE_VAL,
+		     {0, 0},
+		     {0, 0},
+		     0.0,
+		     0.0,
 		     (double)NAN};
 	for (size_t i = first; i < report_table_rows(t); i++) {
 		const double w = report_number(t, i, "value");
@@ -111,13 +120,16 @@ void furnaces_write_weak(report_page *page, const report_table *t)
 	double held = 0.0, error = 0.0, failed = HUGE_VAL;
 	const char *nearest = "";
 	int counts[2] = {0, 0}, held_count = 0;
-	report_text(page,
-		    "### The weak furnace\n\nThe area of the facets that a direction sees, over the mean plane's: 1 where "
-		    "masking is a surface's own. Over alpha .0016 to 1 (the width that is most like GGX's) and the cosine; "
-		    "below, where it is least and most (alpha; cosine), and for GGX how far the integral is from the closed "
-		    "form G1 (mu + t)/(2 mu), relative.\n\n"
-		    "| masking | distribution | least | at | most | at | off 1 by | closed form off by | quadrature good to |\n"
-		    "|---|---|--:|---|--:|---|--:|--:|--:|\n");
+	report_text(
+		page,
+		"### The weak furnace\n\nThe area of the facets that a direction sees, over the mean plane's: 1 where "
+		"masking is a surface's own. Over alpha .0016 to 1 (the width that is most like GGX's) and the cosine; "
+		"below, where it is least and most (alpha; cosine), and for GGX how far the integral is from the "
+		"closed "
+		"form G1 (mu + t)/(2 mu), relative.\n\n"
+		"| masking | distribution | least | at | most | at | off 1 by | closed form off by | quadrature good "
+		"to |\n"
+		"|---|---|--:|---|--:|---|--:|--:|--:|\n");
 	fprintf(titles, "array OWN[%d]\narray OTHERS[%d]\n", 2 * OWN, OTHERS);
 	for (size_t i = 0; i < report_table_rows(t);) {
 		const summary s = summary_from(t, i);
@@ -150,14 +162,16 @@ void furnaces_write_weak(report_page *page, const report_table *t)
 	fclose(titles);
 	report_text(page, "\nKelemen's and Neumann's have no masking of one direction, and so no weak furnace.\n");
 	report_gnuplot(page, "furnaces_weak.gp", NULL);
-	report_figure(page, "furnaces_weak_own.png",
-		      "|weak furnace - 1| of every distribution with Smith's masking and with V-cavities. What is seen is "
-		      "the roundings of single precision.");
+	report_figure(
+		page, "furnaces_weak_own.png",
+		"|weak furnace - 1| of every distribution with Smith's masking and with V-cavities. What is seen is "
+		"the roundings of single precision.");
 	report_figure(page, "furnaces_weak_others.png",
 		      "The weak furnace of masking that is no surface's: below 1 facets vanish, above it they are seen "
 		      "twice.");
-	report_finding(page,
-		       "Weak furnace: %d pairs of distribution and masking (Smith, V-cavities) keep it to %.1e (quadrature "
-		       "good to %.0e); each of the %d others breaks it somewhere by %.1e (%s) or more",
-		       held_count, held, error, counts[1], failed, nearest);
+	report_finding(
+		page,
+		"Weak furnace: %d pairs of distribution and masking (Smith, V-cavities) keep it to %.1e (quadrature "
+		"good to %.0e); each of the %d others breaks it somewhere by %.1e (%s) or more",
+		held_count, held, error, counts[1], failed, nearest);
 }
