@@ -5,6 +5,7 @@
  *	approximations_opencl.c		the same text as OpenCL kernels, and OpenCL's built-in functions
  *	approximations_albedo.c		directions and weights to integrate albedos with
  *	approximations_fresnel.c	errors of reflectances, films included
+ *	approximations_reference.c	what the references themselves are off by
  *	approximations_shadow.c		errors of Lambda, masking and tabulated distributions
  *	approximations_real.c		errors of elementary functions
  *	approximations_field.c		masking simulated on explicit height fields
@@ -108,6 +109,16 @@ typedef struct {
 extern const approximations_part approximations_fresnel, approximations_shadow, approximations_real;
 
 extern const report_study approximations_field_study, approximations_precision_study, approximations_time_study;
+
+/* --- references ---------------------------------------------------------------------------------------------------------- */
+
+/* How far a reference in double precision is from the same in long double (of real: MPFR). */
+double approximations_doubt_fresnel(double exact, double c, double n, double k);
+double approximations_doubt_beckmann_g1(double exact, double a);
+double approximations_doubt_ggx_g2(double exact, double alpha, const double o[3], const double i[3], int across);
+double approximations_doubt_density(double exact, int beckmann, double t);
+double approximations_doubt_hidden(double exact, int beckmann, double t);
+double approximations_doubt_real(const char *name, double reference, float x, float y);
 
 /* --- albedo ---------------------------------------------------------------------------------------------------------- */
 
