@@ -9,6 +9,7 @@
  *	approximations_shadow.c		errors of Lambda, masking and tabulated distributions
  *	approximations_real.c		errors of elementary functions
  *	approximations_field.c		masking simulated on explicit height fields
+ *	approximations_field.h		the fields, and rays over them
  *	approximations_lobes.h		lobes in single and in double precision (approximations_single.c, approximations_double.c)
  *	approximations_precision.c	one against the other
  *	approximations_time.c		time of all of them

@@ -133,9 +133,9 @@ static void reflectances(approximations_group group, const char *of, double n, d
 			const double exact = exact_of((double)c[i], (double)p.n.r, (double)p.k.r);
 			approximations_error_add(&e, (double)got[i], exact, "cos %.3g", (double)c[i]);
 			if (i % 4 == 0)
-				e.reference = fmax(e.reference,
-						   approximations_doubt_fresnel(exact, (double)c[i], (double)p.n.r,
-										(double)p.k.r));
+				e.reference =
+					fmax(e.reference, approximations_doubt_fresnel(exact, (double)c[i],
+										       (double)p.n.r, (double)p.k.r));
 		}
 		add_albedos(way, &p, (double)p.n.r, (double)p.k.r, &e);
 		approximations_error_row(rows, approximations_groups[group], way->name, of, "reflectance", &e);

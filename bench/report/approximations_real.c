@@ -68,8 +68,8 @@ static void add(approximations_error *e, size_t f, const float *x, const float *
 			approximations_error_add(e, ulp_error_double(got[i], exact), 0.0, "%.9g; %.9g", (double)x[i],
 						 (double)y[i]);
 		if (i % 128 == 0)
-			e->reference = fmax(e->reference,
-					    approximations_doubt_real(functions[f].name, exact, x[i], y[i]));
+			e->reference =
+				fmax(e->reference, approximations_doubt_real(functions[f].name, exact, x[i], y[i]));
 	}
 }
 

@@ -56,8 +56,8 @@ double approximations_doubt_density(double exact, int beckmann, double t_in)
 double approximations_doubt_hidden(double exact, int beckmann, double t_in)
 {
 	const long double t = t_in;
-	const long double hidden = beckmann ? 0.5L * (expl(-t * t) / SQRT_PI - t * erfcl(t))
-					    : 0.5L * (sqrtl(1.0L + t * t) - t);
+	const long double hidden =
+		beckmann ? 0.5L * (expl(-t * t) / SQRT_PI - t * erfcl(t)) : 0.5L * (sqrtl(1.0L + t * t) - t);
 	return (double)fabsl(hidden / exact - 1.0L);
 }
 
