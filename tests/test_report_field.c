@@ -1,5 +1,5 @@
-/* test_report_field.c - the report's simulated masking, the judge of all models: against a simulation that shares nothing
- * with it but what a Gaussian field is, and against known moments; and that errors planted in it are found. */
+/* test_report_field.c - the report's simulated masking, the judge of all models: against a simulation that shares
+ * nothing with it but what a Gaussian field is, and against known moments; and that errors planted in it are found. */
 #include "approximations_field.h"
 
 #include "measured.h"
@@ -14,8 +14,8 @@
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-/* Angles from the normal and azimuth between [degrees], on the surface of width 1; the facet is the half vector's. below:
- * the second direction is under the surface, and the facet the one that refracts by index 1.5. */
+/* Angles from the normal and azimuth between [degrees], on the surface of width 1; the facet is the half vector's.
+ * below: the second direction is under the surface, and the facet the one that refracts by index 1.5. */
 typedef struct {
 	double theta_o, theta_i, phi;
 	int below;
@@ -69,8 +69,8 @@ enum { OTHER_WAVES = 40 };
 
 static double uniform(uint32_t stream, uint64_t i) { return ((double)test_bits(stream, i) + 0.5) * 0x1p-32; }
 
-/* Heights by cosines in double, and a slope that is met, not made: of fields of any slope those are taken whose slope in
- * the middle is within .2 of the wanted one. Returns how many were. */
+/* Heights by cosines in double, and a slope that is met, not made: of fields of any slope those are taken whose slope
+ * in the middle is within .2 of the wanted one. Returns how many were. */
 static uint64_t simulate_otherwise(const pair *p, uint64_t wanted, double share[3])
 {
 	const double to = p->theta_o * PI / 180.0, ti = p->theta_i * PI / 180.0, phi = p->phi * PI / 180.0;

@@ -1,5 +1,6 @@
-/* test_report_furnaces.c - the report's furnaces: every lobe is there, energies and their errors against closed forms and
- * a table made apart from this library, and light that is made - one percent of it, or for want of masking - is found. */
+/* test_report_furnaces.c - the report's furnaces: every lobe is there, energies and their errors against closed forms
+ * and a table made apart from this library, and light that is made - one percent of it, or for want of masking - is
+ * found. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +40,7 @@ static void test_every_lobe_has_a_furnace(void)
 
 static double mean(const furnaces_energy *e) { return (e->rgb[0] + e->rgb[1] + e->rgb[2]) / 3.0; }
 
-/* --- energies ----------------------------------------------------------------------------------------------------------- */
+/* --- energies ----------------------------------------------------------------------------------------------------- */
 
 /* GGX of width 1 and F = 1: 1 - mu log((1 + mu)/mu), separable 2 (1 - log 2)/(1 + mu). */
 static void test_energies_are_exact_at_alpha_1(void)
@@ -104,7 +105,7 @@ static void test_stated_errors_hold(void)
 	measured("rough energies off by more than they state", worst, 1e-12);
 }
 
-/* --- planted errors ------------------------------------------------------------------------------------------------------ */
+/* --- planted errors ----------------------------------------------------------------------------------------------- */
 
 static lobe_rgb brighter(lobe_bsdf b, lobe_vec3 wo, lobe_vec3 wi)
 {
@@ -158,7 +159,7 @@ static void test_light_that_is_made_is_found(void)
 	TEST_ASSERT_TRUE(found(&s, &row, &energy));
 }
 
-/* --- weak furnaces ------------------------------------------------------------------------------------------------------- */
+/* --- weak furnaces ------------------------------------------------------------------------------------------------ */
 
 static void test_weak_furnaces(void)
 {

@@ -10,7 +10,7 @@
 #include "approximations_summary.h"
 #include "csv.h"
 
-/* --- the study of errors: three parts, one after another --------------------------------------------------------------- */
+/* --- the study of errors: three parts, one after another ---------------------------------------------------------- */
 
 static const approximations_part *const parts[] = {&approximations_fresnel, &approximations_shadow,
 						   &approximations_real};
@@ -42,7 +42,7 @@ static const report_study error_study = {
 	.run = error_run,
 };
 
-/* --- parts of the section -------------------------------------------------------------------------------------------------- */
+/* --- parts of the section ----------------------------------------------------------------------------------------- */
 
 static void dielectrics(report_page *page, const report_table *errors, const report_table *times)
 {
@@ -285,8 +285,10 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		 "curves what fits the whole curve best; Gulbrandsen's mapping is a change of parameters and exact.",
 		 " (reflectance)", conductors},
 		{"film", "Thin films",
-		 "On metals, against the integral of Airy's reflectance over the same sensitivities.", " (a channel)",
-		 NULL},
+		 "On metals, against the integral of Airy's reflectance over the same sensitivities, by as many wave "
+		 "numbers "
+		 "as it takes.",
+		 " (a channel)", NULL},
 		{"lambda", "Lambda of Beckmann", "Against the textbook's form in double.", " (G1)", lambdas},
 		{"masking", "Masking, one side",
 		 "G2 on a GGX surface of width .1 to 1, against Smith's height-correlated masking in double (of the "
@@ -310,9 +312,11 @@ static void write(report_page *page, const report_table *const *tables, int quic
 		"albedo that follows (a GGX mirror, or Beckmann for its Lambda; four widths .1 to 1, six view cosines "
 		".05 to "
 		"1), and the time of a call, as the median over repeats of loops over %d elements: in a loop that the "
-		"compiler may vectorise, one by one, and as an OpenCL kernel on all its cores. Where a reference's own "
-		"error is more than a tenth of "
-		"the error beside it, that error is an upper bound, and nothing is concluded from it.\n\n",
+		"compiler may vectorise, one by one, and as an OpenCL kernel on all its cores. *Reference good to*: "
+		"measured "
+		"against long double (elementary functions: MPFR), albedos and spectra by halving steps. An error that "
+		"is "
+		"not ten times that is given as what it is below.\n\n",
 		2048);
 	for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
 		approximations_summary all[APPROXIMATIONS_WAYS_MAX];
@@ -338,11 +342,13 @@ static void write(report_page *page, const report_table *const *tables, int quic
 	}
 	report_gnuplot(page, "approximations.gp", NULL);
 	report_figure(page, "approximations_pareto.png",
-		      "RMS error against time of a call in a vectorised loop. The line is the front: nothing below and "
-		      "to the left "
-		      "of it.");
+		      "RMS error against time of a call, in a loop that the compiler may vectorise or one by one, "
+		      "whichever is "
+		      "faster. The line is the front: nothing below and to the left of it.");
 	report_figure(page, "approximations_real.png",
-		      "Elementary functions: RMS error in ulp against time of a call.");
+		      "Elementary functions: RMS error in ulp against time of a call; round: the library's, square: "
+		      "libm's, by "
+		      "the same numbers.");
 	fields(page, tables[2]);
 	report_figure(page, "approximations_field.png",
 		      "Masking functions against the simulated share of facets that both directions see; bars are two "

@@ -1,7 +1,8 @@
-/* approximations_field.c - masking of pairs of directions simulated on explicit height fields, as a judge of all models.
+/* approximations_field.c - masking of pairs of directions simulated on explicit height fields, as a judge of all
+ * models.
  *
- * What is seen of a stretched surface is what is seen of one of width 1 from the stretched direction, so that alpha is a
- * matter of angles. A new field (approximations_field.h) is drawn for each answer: answers are independent, and their
+ * What is seen of a stretched surface is what is seen of one of width 1 from the stretched direction, so that alpha is
+ * a matter of angles. A new field (approximations_field.h) is drawn for each answer: answers are independent, and their
  * standard error is the binomial one. tests/test_report_field.c holds the simulation against one that shares nothing
  * with it, and shows that errors planted in it are found. */
 #include <gsl/gsl_sf_gamma.h>
@@ -84,7 +85,7 @@ int approximations_field_is_free(const approximations_field *f, float dx, float 
 	}
 }
 
-/* --- models ------------------------------------------------------------------------------------------------------------- */
+/* --- models ------------------------------------------------------------------------------------------------------- */
 
 static const char *const models[2][MODELS] = {{"Smith; separable", "Smith; height-correlated",
 					       "Smith; direction-correlated", "Smith; height and direction",

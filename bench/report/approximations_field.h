@@ -1,10 +1,10 @@
 /* approximations_field.h - a Gaussian height field with a given slope in its middle, and rays over it.
  *
- * The field is a sum of waves of random directions, lengths and phases: Gaussian by the central limit theorem, correlation
- * exp(-r^2/2), slopes of variance 1/2, that is Beckmann's surface of width 1. Asked is what a reflection needs: of the
- * facets with the half vector's slope, which share do both directions see? So the field is given that slope in its middle
- * by adding what the slope lacks times the field's covariance with it (Matheron): f + (target - slope).x exp(-|x|^2/2) is
- * the Gaussian field of that slope. */
+ * The field is a sum of waves of random directions, lengths and phases: Gaussian by the central limit theorem,
+ * correlation exp(-r^2/2), slopes of variance 1/2, that is Beckmann's surface of width 1. Asked is what a reflection
+ * needs: of the facets with the half vector's slope, which share do both directions see? So the field is given that
+ * slope in its middle by adding what the slope lacks times the field's covariance with it (Matheron): f + (target -
+ * slope).x exp(-|x|^2/2) is the Gaussian field of that slope. */
 #ifndef LOBE_BENCH_APPROXIMATIONS_FIELD_H
 #define LOBE_BENCH_APPROXIMATIONS_FIELD_H
 

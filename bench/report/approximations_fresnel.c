@@ -14,7 +14,7 @@ enum { ETAS = sizeof etas / sizeof *etas, FILMS = 4 };
 
 static double channel(lobe_rgb c, int k) { return (double)(k == 0 ? c.r : k == 1 ? c.g : c.b); }
 
-/* --- parameters of the approximations ---------------------------------------------------------------------------------- */
+/* --- parameters of the approximations ----------------------------------------------------------------------------- */
 
 /* The exponent of Schlick's curve that is nearest to exact in the mean square over the cosine: golden section. */
 static double power_error(double exponent, double f0, const double *exact, int n)
@@ -79,7 +79,7 @@ static approximations_set set_of(double n, double k)
 	return p;
 }
 
-/* --- dielectrics and metals ----------------------------------------------------------------------------------------------- */
+/* --- dielectrics and metals --------------------------------------------------------------------------------------- */
 
 static void run_loop(const approximations_way *way, const approximations_set *p, size_t n, const float *x, float *r0,
 		     float *r1, float *r2)
@@ -142,7 +142,7 @@ static void reflectances(approximations_group group, const char *of, double n, d
 	}
 }
 
-/* --- films ------------------------------------------------------------------------------------------------------------------ */
+/* --- films -------------------------------------------------------------------------------------------------------- */
 
 /* Film unit: what the film lies on, and its index. */
 static const struct {
@@ -154,9 +154,9 @@ static const struct {
 		  {"titanium", LOBE_METAL_TITANIUM, 2.2f},
 		  {"chromium", LOBE_METAL_CHROMIUM, 1.8f}};
 
-/* The integral over wave number by the trapezoidal rule, which converges faster than any power on what falls to 0 at both
- * ends as the sensitivities do: intervals are halved until that changes it by less than 1e-9. *doubt: the last change,
- * which is what the one but last is off by. */
+/* The integral over wave number by the trapezoidal rule, which converges faster than any power on what falls to 0 at
+ * both ends as the sensitivities do: intervals are halved until that changes it by less than 1e-9. *doubt: the last
+ * change, which is what the one but last is off by. */
 static double spectral(double c, const approximations_set *p, int k, double *doubt)
 {
 	enum { LEAST = 64, MOST = 1 << 16 };

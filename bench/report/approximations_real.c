@@ -1,4 +1,5 @@
-/* approximations_real.c - errors of elementary functions in ulp: the library's, libm's in single precision, OpenCL's. */
+/* approximations_real.c - errors of elementary functions in ulp: the library's, libm's in single
+ * precision, OpenCL's. */
 #include "real_reference.h"
 
 #include "approximations.h"

@@ -1,7 +1,8 @@
 /* approximations_reference.c - the references once more in long double: what their double precision is off by.
  *
  * The same equations as tests/textbook.c prints them, in another arrangement where there is one, so that a reference's
- * error is measured, not estimated. Where long double is double's twin (some ARM ABIs) it measures the arrangement alone. */
+ * error is measured, not estimated. Where long double is double's twin (some ARM ABIs) it measures the arrangement
+ * alone. */
 #include <complex.h>
 #include <math.h>
 #include <mpfr.h>
@@ -46,7 +47,8 @@ double approximations_doubt_ggx_g2(double exact, double alpha, const double o[3]
 	return (double)fabsl(both - exact);
 }
 
-/* Relative. D of the facet with tan theta/alpha = t over that of the level one, and |z| Lambda at cot theta/alpha = t. */
+/* Relative. D of the facet with tan theta/alpha = t over that of the level one, and |z| Lambda at cot
+ * theta/alpha = t. */
 double approximations_doubt_density(double exact, int beckmann, double t_in)
 {
 	const long double t = t_in, square = 1.0L + t * t;

@@ -1,4 +1,5 @@
-/* approximations_shadow.c - errors of Beckmann's Lambda, of masking on a GGX surface, and of distributions from a table. */
+/* approximations_shadow.c - errors of Beckmann's Lambda, of masking on a GGX surface, and of distributions from a
+ * table. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
@@ -33,7 +34,7 @@ static float one(const approximations_way *way, const approximations_set *p, flo
 	return r;
 }
 
-/* --- Lambda --------------------------------------------------------------------------------------------------------------- */
+/* --- Lambda ------------------------------------------------------------------------------------------------------- */
 
 /* 1/(1 + Lambda) of tangent r/z in the textbook's form, with erfc so that nothing cancels up to where it is 1. */
 static double exact_g1(double r, double z)
@@ -88,10 +89,10 @@ static void lambda(int quick, report_rows *rows)
 	}
 }
 
-/* --- masking ---------------------------------------------------------------------------------------------------------------- */
+/* --- masking ------------------------------------------------------------------------------------------------------ */
 
-/* Pairs of directions by equal steps of both cosines and the azimuth between; against Smith's height-correlated masking or,
- * across, the beta function, in double. */
+/* Pairs of directions by equal steps of both cosines and the azimuth between; against Smith's height-correlated masking
+ * or, across, the beta function, in double. */
 static void masking(approximations_group group, double alpha, int quick, report_rows *rows)
 {
 	const int steps = quick ? 24 : 64;
@@ -150,7 +151,7 @@ static void masking(approximations_group group, double alpha, int quick, report_
 	}
 }
 
-/* --- tables ----------------------------------------------------------------------------------------------------------------- */
+/* --- tables ------------------------------------------------------------------------------------------------------- */
 
 static double ggx_profile(void *context, double t)
 {
@@ -176,8 +177,9 @@ static double mean_facing(lobe_smith s, lobe_vec3 o, const double (*x)[2], const
 	return sum;
 }
 
-/* The mean of o.m over visible normals of d, less that over ndf's own. By Gauss points of u = v^2 (3 - 2 v), which crowd
- * at both ends: there a distribution's tail is, and where facets turn away. GGX's own u.x is an azimuth: equal steps. */
+/* The mean of o.m over visible normals of d, less that over ndf's own. By Gauss points of u = v^2 (3 - 2 v), which
+ * crowd at both ends: there a distribution's tail is, and where facets turn away. GGX's own u.x is an azimuth: equal
+ * steps. */
 static double facing_off(lobe_distribution d, unsigned ndf, double alpha, double cosine, size_t n)
 {
 	double ends[2 * SIDE][2], turn[2 * SIDE][2];
@@ -215,7 +217,8 @@ static int tables(unsigned ndf, int quick, report_rows *rows)
 	}
 	const lobe_distribution d = p.surface.distribution;
 	for (uint32_t i = 0; i < samples; i++) {
-		/* tan/alpha from .01 to 3 of a facet (D down to 1e-4 of its peak), cot/alpha from .01 to 3 of a direction: relative. */
+		/* tan/alpha from .01 to 3 of a facet (D down to 1e-4 of its peak), cot/alpha from .01 to 3 of a
+		 * direction: relative. */
 		const double t = 0.01 * pow(300.0, ((double)i + 0.5) / (double)samples);
 		const double x = (double)(float)t,
 			     exact_d = ndf == LOBE_NDF_GGX ? ggx_profile(NULL, x) : beckmann_profile(NULL, x);

@@ -1,4 +1,5 @@
-/* furnaces.c - the section: what single scattering loses, what makes light, and whether masking belongs to its surface. */
+/* furnaces.c - the section: what single scattering loses, what makes light, and whether masking
+ * belongs to its surface. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -14,9 +14,10 @@
 #include "lobe/lobe.h"
 #include "report.h"
 
-/* --- integrals over facets ------------------------------------------------------------------------------------------ */
+/* --- integrals over facets ---------------------------------------------------------------------------------------- */
 
-/* Facets are s = (sx, sy, 1), not unit. Functions of them whose zeros bound what is integrated, or where it has a kink. */
+/* Facets are s = (sx, sy, 1), not unit. Functions of them whose zeros bound what is integrated, or
+ * where it has a kink. */
 typedef enum {
 	FURNACES_VISIBLE,   /* o.m > 0 */
 	FURNACES_REFLECTED, /* the reflected direction is on o's side */
@@ -32,8 +33,8 @@ typedef struct {
 	double s[3], length2, facing; /* facing: o.s */
 } furnaces_facet;
 
-/* o: unit, o.y = 0, o.z >= 0. The facets' slopes are (ax cos, ay sin)(phi) r; e: index of the far side over o's. bounds,
- * kinks: sets of 1 << furnaces_cut. add: adds weight times the integrand, per solid angle of facets, to sum. */
+/* o: unit, o.y = 0, o.z >= 0. The facets' slopes are (ax cos, ay sin)(phi) r; e: index of the far side over o's.
+ * bounds, kinks: sets of 1 << furnaces_cut. add: adds weight times the integrand, per solid angle of facets, to sum. */
 typedef struct furnaces_integrand {
 	double o[3], ax, ay, e;
 	int tail; /* 1: facets beyond a few widths do not count; 3: a long tail */
@@ -45,11 +46,11 @@ typedef struct furnaces_integrand {
 /* The integral by n x n Gauss points to each smooth piece, of a function that is even in y. */
 void furnaces_integrate(const furnaces_integrand *f, size_t n, double sum[3]);
 
-/* Doubles n, from 8 to most, until sum changes by less than tolerance; returns the last change, which is what the one but
- * last is off by: the last is nearer. scale: of sum. */
+/* Doubles n, from 8 to most, until sum changes by less than tolerance; returns the last change, which is what the one
+ * but last is off by: the last is nearer. scale: of sum. */
 double furnaces_integral(const furnaces_integrand *f, double scale, double tolerance, size_t most, double sum[3]);
 
-/* --- surfaces -------------------------------------------------------------------------------------------------------- */
+/* --- surfaces ----------------------------------------------------------------------------------------------------- */
 
 enum { FURNACES_SHOWN = 5 };
 
@@ -99,7 +100,7 @@ lobe_microsurface furnaces_microsurface(unsigned shape, double alpha, double alp
 double furnaces_value(const furnaces_surface *s, size_t i, size_t n);
 int furnaces_by_alpha(const furnaces_surface *s);
 
-/* --- energies -------------------------------------------------------------------------------------------------------- */
+/* --- energies ----------------------------------------------------------------------------------------------------- */
 
 typedef struct {
 	double rgb[3], error;
@@ -122,7 +123,7 @@ furnaces_energy furnaces_weak_at(unsigned shape, unsigned masking, double alpha,
 /* On GGX, of a masking that is a function of the cosine alone. NaN: there is no closed form here. */
 double furnaces_weak_known(unsigned masking, double alpha, double cosine);
 
-/* --- studies and pictures --------------------------------------------------------------------------------------------- */
+/* --- studies and pictures ----------------------------------------------------------------------------------------- */
 
 extern const report_study furnaces_white, furnaces_shown, furnaces_weak;
 

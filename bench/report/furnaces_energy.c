@@ -9,7 +9,7 @@
 static const double tolerances[] = {1e-4, 5e-6, 5e-7};
 static const size_t points_most[] = {32, 64, 64};
 
-/* --- white furnace ---------------------------------------------------------------------------------------------------- */
+/* --- white furnace ------------------------------------------------------------------------------------------------ */
 
 typedef struct {
 	const furnaces_surface *surface;
@@ -39,8 +39,8 @@ static void add_reflected(const furnaces_integrand *f, const furnaces_facet *m, 
 	add_rgb(sum, weight * 4.0 * m->facing / sqrt(m->length2), eval(f->context, wi));
 }
 
-/* i = -(o + (g - c) m)/e, and dwi = (g - c)^2/(e g) dm: Walter et al. 2007, eqs. 17 and 40, with g the cosine on the far
- * side times e. */
+/* i = -(o + (g - c) m)/e, and dwi = (g - c)^2/(e g) dm: Walter et al. 2007, eqs. 17 and 40, with g the cosine on the
+ * far side times e. */
 static void add_refracted(const furnaces_integrand *f, const furnaces_facet *m, double weight, double sum[3])
 {
 	const double length = sqrt(m->length2), c = m->facing / length, step2 = (f->e - 1.0) * (f->e + 1.0);
@@ -93,8 +93,8 @@ static void sum_directions(const view *v, int n, double sum[3])
 		}
 }
 
-/* Middles of cells converge with their square, but eval's own fixed facets make jumps that do not: what is stated is the
- * greater change from a half and from a third of the points, which are not both small by chance. */
+/* Middles of cells converge with their square, but eval's own fixed facets make jumps that do not: what is stated is
+ * the greater change from a half and from a third of the points, which are not both small by chance. */
 static void over_directions(const view *v, furnaces_effort effort, furnaces_energy *e)
 {
 	static const int sides[] = {12, 24, 48};
@@ -136,7 +136,7 @@ furnaces_energy furnaces_energy_at(const furnaces_surface *s, double value, doub
 	return e;
 }
 
-/* --- weak furnace ------------------------------------------------------------------------------------------------------ */
+/* --- weak furnace ------------------------------------------------------------------------------------------------- */
 
 typedef struct {
 	lobe_microsurface surface;

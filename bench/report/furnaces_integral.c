@@ -1,11 +1,11 @@
 /* furnaces_integral.c - integrals over the facets that a direction sees.
  *
- * In polar coordinates of the slopes. Along each azimuth the interval is split where facets begin or cease to count - to
- * be seen, to send light to this side - and where the integrand has a kink; the azimuths are split where that pattern
- * changes. All of these points are found by bisection, and between them everything is smooth, so that Gauss points
- * converge fast. The radius is r = y/(1 - y)^tail, which is odd where a distribution is even, and makes a long tail, r^-2.6 dr
- * of a Student-T's, smooth at its end. Azimuths crowd at the ends of their intervals, where roots begin, and where facets
- * face sideways, whose fate changes within a narrow turn when seen at a grazing angle. */
+ * In polar coordinates of the slopes. Along each azimuth the interval is split where facets begin or cease to count -
+ * to be seen, to send light to this side - and where the integrand has a kink; the azimuths are split where that
+ * pattern changes. All of these points are found by bisection, and between them everything is smooth, so that Gauss
+ * points converge fast. The radius is r = y/(1 - y)^tail, which is odd where a distribution is even, and makes a long
+ * tail, r^-2.6 dr of a Student-T's, smooth at its end. Azimuths crowd at the ends of their intervals, where roots
+ * begin, and where facets face sideways, whose fate changes within a narrow turn when seen at a grazing angle. */
 #include <gsl/gsl_integration.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* furnaces_sheets.c - the furnaces as pictures: maps over value and angle, and balls in an environment of radiance 1. */
+/* furnaces_sheets.c - the furnaces as pictures: maps over value and angle, and balls in an environment
+ * of radiance 1. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +30,7 @@ double furnaces_tone(double energy)
 	return energy < 1.0 ? -size : size;
 }
 
-/* --- maps --------------------------------------------------------------------------------------------------------------- */
+/* --- maps --------------------------------------------------------------------------------------------------------- */
 
 /* A block for each surface of the family; returns how many. */
 static int write_maps(const report_table *t, const char *family, FILE *data, FILE *titles)
@@ -76,7 +77,7 @@ void furnaces_draw_maps(report_page *page, const report_table *white)
 	}
 }
 
-/* --- balls -------------------------------------------------------------------------------------------------------------- */
+/* --- balls -------------------------------------------------------------------------------------------------------- */
 
 enum { BALL = 112, GAP = 44, CELL_W = BALL + 28, CELL_H = BALL + GAP, LEFT = 20, NODES_MAX = 64, SUB = 3 };
 

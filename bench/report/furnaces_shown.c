@@ -1,5 +1,5 @@
-/* furnaces_shown.c - the energy at the values and angles of the tables, and averaged over the hemisphere: what a ball in
- * constant light sends back. */
+/* furnaces_shown.c - the energy at the values and angles of the tables, and averaged over the hemisphere: what a ball
+ * in constant light sends back. */
 #include <gsl/gsl_integration.h>
 #include <math.h>
 #include <stdio.h>
@@ -75,7 +75,7 @@ const report_study furnaces_shown = {.name = "furnaces_shown",
 				     .units = units,
 				     .run = run};
 
-/* --- tables ------------------------------------------------------------------------------------------------------------- */
+/* --- tables ------------------------------------------------------------------------------------------------------- */
 
 /* In %, with two digits where its error leaves them: the last one printed is ten times that error or more. */
 static void lost_cell(report_page *page, double lost, double error)

@@ -6,7 +6,7 @@
 
 #include "furnaces.h"
 
-/* --- distributions ---------------------------------------------------------------------------------------------------- */
+/* --- distributions ------------------------------------------------------------------------------------------------ */
 
 enum { GGX, BECKMANN, PHONG, GTR_15, GTR_3, STUDENT_18, STUDENT_4, EXPONENTIAL };
 const char *const furnaces_shape_names[FURNACES_SHAPES] = {"GGX",   "Beckmann",      "Phong 20",    "GTR 1.5",
@@ -53,7 +53,7 @@ lobe_microsurface furnaces_microsurface(unsigned shape, double alpha, double alp
 		d, lobe_linear_make((float)(alpha / like), 0.0f, 0.0f, (float)(alpha_y / like), 0.0f, 0.0f));
 }
 
-/* --- how each is made --------------------------------------------------------------------------------------------------- */
+/* --- how each is made --------------------------------------------------------------------------------------------- */
 
 static lobe_rgb grey(double x) { return lobe_rgb_make((float)x, (float)x, (float)x); }
 
@@ -170,7 +170,7 @@ MAKE(microfacet_diffuse)
 	MADE(microfacet_diffuse, value, value, 0.0, lobe_microfacet_diffuse_make(chosen(s, value), grey(1.0)));
 }
 
-/* --- the list ------------------------------------------------------------------------------------------------------------ */
+/* --- the list ----------------------------------------------------------------------------------------------------- */
 
 #define ALPHA      .axis = "alpha", .from = 0.0016, .to = 1.0, .shown = {0.03, 0.1, 0.3, 0.6, 1.0}
 #define THICKNESS  .axis = "film [nm]", .from = 0.0, .to = 1200.0, .shown = {100.0, 200.0, 400.0, 800.0, 1200.0}

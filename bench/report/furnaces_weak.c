@@ -1,5 +1,6 @@
-/* furnaces_weak.c - the weak furnace: the facets that a direction sees are as large as the mean plane, where masking is a
- * surface's (Heitz 2014, eq. 12). Kelemen's and Neumann's masking is none of a single direction and has no such furnace. */
+/* furnaces_weak.c - the weak furnace: the facets that a direction sees are as large as the mean plane, where masking is
+ * a surface's (Heitz 2014, eq. 12). Kelemen's and Neumann's masking is none of a single direction and has no such
+ * furnace. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -64,7 +65,7 @@ const report_study furnaces_weak = {.name = "furnaces_weak",
 				    .units = units,
 				    .run = run};
 
-/* --- the section -------------------------------------------------------------------------------------------------------- */
+/* --- the section -------------------------------------------------------------------------------------------------- */
 
 typedef struct {
 	const char *masking, *distribution;
