@@ -9,23 +9,19 @@
 
 static void write_losses(report_page *page, const report_table *shown)
 {
+	static const char *const names[3] = {"ggx_conductor", "beckmann_conductor", "ggx_dielectric 1.5"};
+	furnaces_lost lost[3][4];
+	for (int s = 0; s < 3; s++)
+		for (int k = 0; k < 4; k++)
+			lost[s][k] = furnaces_ball_loses(shown, names[s], furnaces_surfaces[0].shown[4 - k]);
 	report_finding(
 		page,
-		"Single scattering loses %.1f %% of the light on a white ball of GGX metal at alpha 1, %.1f %% at "
-		".6, %.1f %% at .3, %.1f %% at .1; Beckmann's %.1f, %.1f, %.1f and %.1f %%; GGX glass 1.5 %.1f, "
-		"%.1f, %.1f and %.1f %%",
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 1.0)),
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.3)),
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_conductor", 0.1)),
-		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 1.0)),
-		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.3)),
-		100.0 * (1.0 - furnaces_ball(shown, "beckmann_conductor", 0.1)),
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 1.0)),
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.3)),
-		100.0 * (1.0 - furnaces_ball(shown, "ggx_dielectric 1.5", 0.1)));
+		"Single scattering loses %s %% of the light on a white ball of GGX metal at alpha %g, %s at %g, %s at "
+		"%g, %s at %g; Beckmann's %s, %s, %s and %s %%; GGX glass 1.5 %s, %s, %s and %s %%",
+		lost[0][0].text, furnaces_surfaces[0].shown[4], lost[0][1].text, furnaces_surfaces[0].shown[3],
+		lost[0][2].text, furnaces_surfaces[0].shown[2], lost[0][3].text, furnaces_surfaces[0].shown[1],
+		lost[1][0].text, lost[1][1].text, lost[1][2].text, lost[1][3].text, lost[2][0].text, lost[2][1].text,
+		lost[2][2].text, lost[2][3].text);
 }
 
 /* Surfaces that make light: none should; and those that are no surfaces and do. */
@@ -66,16 +62,17 @@ static void write_gains(report_page *page, const report_table *white)
 
 static void write_maskings(report_page *page, const report_table *shown)
 {
+	static const char *const names[6] = {"Smith height-correlated", "Smith separable", "V-cavities",
+					     "Schlick-Smith alpha/2",   "Disney",          "implicit"};
+	const double alpha = furnaces_surfaces[0].shown[3];
+	furnaces_lost lost[6];
+	for (int k = 0; k < 6; k++)
+		lost[k] = furnaces_ball_loses(shown, names[k], alpha);
 	report_finding(
 		page,
-		"On a GGX ball of alpha .6 masking decides how much is lost: height-correlated %.1f %%, separable "
-		"%.1f %%, V-cavities %.1f %%, Schlick-Smith with alpha/2 %.1f %%, Disney's %.1f %%, implicit %.1f %%",
-		100.0 * (1.0 - furnaces_ball(shown, "Smith height-correlated", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "Smith separable", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "V-cavities", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "Schlick-Smith alpha/2", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "Disney", 0.6)),
-		100.0 * (1.0 - furnaces_ball(shown, "implicit", 0.6)));
+		"On a GGX ball of alpha %g masking decides how much is lost: height-correlated %s %%, separable %s %%, "
+		"V-cavities %s %%, Schlick-Smith with alpha/2 %s %%, Disney's %s %%, implicit %s %%",
+		alpha, lost[0].text, lost[1].text, lost[2].text, lost[3].text, lost[4].text, lost[5].text);
 }
 
 static void write(report_page *page, const report_table *const *tables, int quick)

@@ -141,7 +141,11 @@ int furnaces_gains(const report_table *t, const char *name, size_t *most);
 /* Files that the gnuplot scripts draw, and the figures in the page. */
 void furnaces_draw_maps(report_page *page, const report_table *white);
 void furnaces_draw_balls(report_page *page, const report_table *shown);
-double furnaces_ball(const report_table *shown, const char *name, double value);
+/* What a ball of that surface and value loses, in %, as it is printed: the last digit is ten times its error or more. */
+typedef struct {
+	char text[32];
+} furnaces_lost;
+furnaces_lost furnaces_ball_loses(const report_table *shown, const char *name, double value);
 void furnaces_write_balls(report_page *page, const report_table *shown);
 void furnaces_write_angles(report_page *page, const report_table *shown);
 void furnaces_write_weak(report_page *page, const report_table *weak);

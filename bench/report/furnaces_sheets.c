@@ -17,7 +17,7 @@ static const struct {
 	{"film", "thin films on a surface of alpha .03"},
 	{"ideal", "without roughness"},
 	{"diffuse", "rough diffuse surfaces"},
-	{"masking", "GGX by masking, reflectance 1"},
+	{"masking", "reflectance 1 by masking (GGX but for the last)"},
 	{"compared", "GGX by masking that is no surface's, reflectance 1"},
 	{"distribution", "distributions with Smith's masking, reflectance 1"},
 };
@@ -79,7 +79,7 @@ void furnaces_draw_maps(report_page *page, const report_table *white)
 
 /* --- balls -------------------------------------------------------------------------------------------------------- */
 
-enum { BALL = 112, GAP = 44, CELL_W = BALL + 28, CELL_H = BALL + GAP, LEFT = 20, NODES_MAX = 64, SUB = 3 };
+enum { BALL = 112, GAP = 48, CELL_W = BALL + 28, CELL_H = BALL + GAP, LEFT = 20, NODES_MAX = 64, SUB = 3 };
 
 /* Energies of a ball by v, cos = v^2. */
 typedef struct {
@@ -182,16 +182,22 @@ static void draw_sheet(const report_table *t, const char *const *names, int coun
 			if (strcmp(what, "mean") != 0)
 				continue;
 			/* The mean is a ball's last row. */
-			const int left = LEFT + column * CELL_W, top = s * CELL_H + 18;
+			const int left = LEFT + column * CELL_W, top = s * CELL_H + 23;
 			draw_ball(rgb, width, left, top, &p);
-			fprintf(labels, "set label %d \"%s %g: %.3f\" at %d, %d center front font \"sans,9\"\n",
+			/* As many digits as are ten times the error or more. */
+			const double error = report_number(t, i, "error");
+			fprintf(labels, "set label %d \"%s %g: %.*f\" at %d, %d center front font \"sans,9\"\n",
 				1000 + s * FURNACES_SHOWN + column, report_cell(t, i, "axis"),
-				report_number(t, i, "value"), c[0], left + BALL / 2, top + BALL + 11);
+				report_number(t, i, "value"),
+				error <= 1e-4   ? 3
+				: error <= 1e-3 ? 2
+						: 1,
+				c[0], left + BALL / 2, top + BALL + 11);
 			p.n = 0;
 			column++;
 		}
 		fprintf(labels, "set label %d \"%s\" at %d, %d left front font \"sans,10\"\n", s + 1, names[s], LEFT,
-			s * CELL_H + 8);
+			s * CELL_H + 11);
 	}
 	fprintf(labels, "WIDTH = %d\nHEIGHT = %d\n", width, height);
 	FILE *pixels = report_open("furnaces_balls.rgb");

@@ -18,7 +18,7 @@ void furnaces_white_rows(const furnaces_surface *s, size_t i, int quick, report_
 	const double value = furnaces_value(s, i, values(quick));
 	for (size_t k = 0; k < cosines(quick); k++) {
 		const double cosine = ((double)k + 0.5) / (double)cosines(quick);
-		const furnaces_energy e = furnaces_energy_at(s, value, cosine, quick ? FURNACES_ROUGH : FURNACES_FINE);
+		const furnaces_energy e = furnaces_energy_at(s, value, cosine, FURNACES_ROUGH);
 		report_row(rows, "%s,%s,%s,%d,%g,%s,%.6g,%.6g,%.7f,%.7f,%.7f,%.2g", s->family, s->lobe, s->name,
 			   s->no_surface, s->stated, s->axis, value, cosine, e.rgb[0], e.rgb[1], e.rgb[2], e.error);
 	}
