@@ -16,25 +16,26 @@
 /* Walter et al. 2007, eq. 22, by the refracted cosine; the Fresnel equations in complex numbers. */
 double approximations_doubt_fresnel(double exact, double c, double n, double k)
 {
-	const long double z = c, sine2 = (1.0L - z) * (1.0L + z);
+	const long double z = (long double)c, sine2 = (1.0L - z) * (1.0L + z);
 	const long double complex index = (long double)n + (long double)k * (long double complex)I;
 	const long double complex root = csqrtl(index * index - sine2);
 	const long double s = cabsl((z - root) / (z + root));
 	const long double p = cabsl((index * index * z - root) / (index * index * z + root));
-	return (double)fabsl(0.5L * (s * s + p * p) - exact);
+	return (double)fabsl(0.5L * (s * s + p * p) - (long double)exact);
 }
 
 /* 1/(1 + Lambda) of Beckmann at a = cot theta/alpha. */
 double approximations_doubt_beckmann_g1(double exact, double a_in)
 {
-	const long double a = a_in;
+	const long double a = (long double)a_in;
 	const long double lambda = 0.5L * (expl(-a * a) / (a * SQRT_PI) - erfcl(a));
-	return (double)fabsl(1.0L / (1.0L + lambda) - exact);
+	return (double)fabsl(1.0L / (1.0L + lambda) - (long double)exact);
 }
 
 static long double ggx_lambda(double alpha, const double w[3])
 {
-	const long double a = alpha, x = w[0], y = w[1], z = w[2];
+	const long double a = (long double)alpha;
+	const long double x = (long double)w[0], y = (long double)w[1], z = (long double)w[2];
 	const long double slope2 = a * a * (x * x + y * y) / (z * z);
 	return 0.5L * slope2 / (1.0L + sqrtl(1.0L + slope2));
 }
@@ -44,23 +45,23 @@ double approximations_doubt_ggx_g2(double exact, double alpha, const double o[3]
 	const long double lo = ggx_lambda(alpha, o), li = ggx_lambda(alpha, i);
 	const long double both = across ? expl(lgammal(1.0L + lo) + lgammal(1.0L + li) - lgammal(2.0L + lo + li))
 					: 1.0L / (1.0L + lo + li);
-	return (double)fabsl(both - exact);
+	return (double)fabsl(both - (long double)exact);
 }
 
 /* Relative. D of the facet with tan theta/alpha = t over that of the level one, and |z| Lambda at cot
  * theta/alpha = t. */
 double approximations_doubt_density(double exact, int beckmann, double t_in)
 {
-	const long double t = t_in, square = 1.0L + t * t;
-	return (double)fabsl((beckmann ? expl(-t * t) : 1.0L / (square * square)) / exact - 1.0L);
+	const long double t = (long double)t_in, square = 1.0L + t * t;
+	return (double)fabsl((beckmann ? expl(-t * t) : 1.0L / (square * square)) / (long double)exact - 1.0L);
 }
 
 double approximations_doubt_hidden(double exact, int beckmann, double t_in)
 {
-	const long double t = t_in;
+	const long double t = (long double)t_in;
 	const long double hidden =
 		beckmann ? 0.5L * (expl(-t * t) / SQRT_PI - t * erfcl(t)) : 0.5L * (sqrtl(1.0L + t * t) - t);
-	return (double)fabsl(hidden / exact - 1.0L);
+	return (double)fabsl(hidden / (long double)exact - 1.0L);
 }
 
 /* In ulp of a float, from MPFR's value. */
