@@ -80,7 +80,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 	(void)quick;
 	report_text(page, "What a surface sends back of constant light 1, by quadrature over its facets "
 			  "(tests/test_report_furnaces.c "
-			  "holds it against closed forms); each number's error is what doubling the points changes. "
+			  "holds it against closed forms); each number's error is twice what more points change. "
 			  "Every lobe is "
 			  "made white: reflectance 1, or as little absorption as its parameters allow.\n\n");
 	write_losses(page, tables[1]);

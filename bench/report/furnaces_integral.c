@@ -237,17 +237,19 @@ void furnaces_integrate(const furnaces_integrand *f, size_t n, double sum[3])
 
 double furnaces_integral(const furnaces_integrand *f, double scale, double tolerance, size_t most, double sum[3])
 {
-	double last[3], change = HUGE_VAL;
-	furnaces_integrate(f, 8, last);
-	for (size_t n = 16; n <= most; n *= 2) {
-		furnaces_integrate(f, n, sum);
+	static const size_t points[] = {8, 12, 16, 24, 32, 48, 64};
+	double before[2][3], change = HUGE_VAL;
+	furnaces_integrate(f, points[0], before[0]);
+	furnaces_integrate(f, points[1], before[1]);
+	for (size_t i = 2; i < sizeof points / sizeof *points && points[i] <= most && !(change < tolerance); i++) {
+		furnaces_integrate(f, points[i], sum);
 		change = 0.0;
 		for (int k = 0; k < 3; k++) {
-			change = fmax(change, scale * fabs(sum[k] - last[k]));
-			last[k] = sum[k];
+			change = fmax(change,
+				      2.0 * scale * fmax(fabs(sum[k] - before[0][k]), fabs(sum[k] - before[1][k])));
+			before[0][k] = before[1][k];
+			before[1][k] = sum[k];
 		}
-		if (change < tolerance)
-			break;
 	}
 	for (int k = 0; k < 3; k++)
 		sum[k] *= scale;

@@ -33,8 +33,8 @@ static pair pair_at(size_t i)
 	return own;
 }
 
-static size_t values(int quick) { return quick ? 13 : 33; }
-static size_t cosines(int quick) { return quick ? 10 : 32; }
+static size_t values(int quick) { return quick ? 11 : 33; }
+static size_t cosines(int quick) { return quick ? 9 : 32; }
 
 static size_t units(int quick)
 {
