@@ -235,7 +235,7 @@ const furnaces_surface furnaces_surfaces[] = {
 	MASKED("Smith direction-correlated", .joint = LOBE_JOINT_DIRECTION, LEVEL),
 	MASKED("Smith height and direction", .joint = LOBE_JOINT_HEIGHT_DIRECTION, LEVEL),
 	MASKED("V-cavities", .masking = LOBE_MASKING_VCAVITY, CAVITIES),
-	MASKED("Beckmann Smith rational", .ndf = BECKMANN, .masking = LOBE_MASKING_SMITH_RATIONAL),
+	MASKED("Beckmann Smith rational", .no_surface = 1, .ndf = BECKMANN, .masking = LOBE_MASKING_SMITH_RATIONAL),
 
 	NO_SURFACE("no masking", .masking = LOBE_MASKING_NONE),
 	NO_SURFACE("implicit", .masking = LOBE_MASKING_IMPLICIT),
