@@ -79,7 +79,7 @@ void furnaces_draw_maps(report_page *page, const report_table *white)
 
 /* --- balls -------------------------------------------------------------------------------------------------------- */
 
-enum { BALL = 112, GAP = 48, CELL_W = BALL + 28, CELL_H = BALL + GAP, LEFT = 20, NODES_MAX = 64, SUB = 3 };
+enum { BALL = 112, GAP = 48, CELL_W = BALL + 28, CELL_H = BALL + GAP, LEFT = 20, NODES_MAX = 256, SUB = 3 };
 
 /* Energies of a ball by v, cos = v^2. */
 typedef struct {
@@ -90,8 +90,10 @@ typedef struct {
 static void profile_add(profile *p, double v, const double rgb[3])
 {
 	int i = p->n;
-	if (i == NODES_MAX)
-		return;
+	if (i == NODES_MAX) {
+		fputs("report: more points on a ball than furnaces_sheets.c has room for\n", stderr);
+		exit(1);
+	}
 	for (; i > 0 && p->v[i - 1] > v; i--) {
 		p->v[i] = p->v[i - 1];
 		memcpy(p->rgb[i], p->rgb[i - 1], sizeof p->rgb[i]);
