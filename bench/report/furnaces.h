@@ -142,7 +142,7 @@ int furnaces_gains(const report_table *t, const char *name, size_t *most);
 /* Files that the gnuplot scripts draw, and the figures in the page. */
 void furnaces_draw_maps(report_page *page, const report_table *white);
 void furnaces_draw_balls(report_page *page, const report_table *shown);
-/* What a ball of that surface and value loses, in %, as it is printed: the last digit is ten times its error or more. */
+/* What a ball of that surface and value loses, in %, as printed: the last digit is ten times its error or more. */
 typedef struct {
 	char text[32];
 } furnaces_lost;

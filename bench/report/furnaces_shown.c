@@ -65,7 +65,7 @@ static int run(int quick, size_t unit, report_rows *rows)
 		const double from = k < pieces ? 0.0 : edge, to = k < pieces ? edge : 1.0;
 		const double step = (to - from) / pieces, first = from + step * (k % pieces);
 		double part, error, scale, size;
-		/* Half of the points are Gauss's, whose result differs from that of all (Kronrod) by what it is off by. */
+		/* Half of the points are Gauss's, whose result is as far from all of theirs (Kronrod) as it is off. */
 		if (s->inside && quick)
 			gsl_integration_qk15(&f, first, first + step, &part, &error, &scale, &size);
 		else
