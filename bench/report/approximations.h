@@ -5,10 +5,12 @@
  *	approximations_opencl.c		the same text as OpenCL kernels, and OpenCL's built-in functions
  *	approximations_albedo.c		directions and weights to integrate albedos with
  *	approximations_fresnel.c	errors of reflectances, films included
+ *	approximations_reference.c	what the references themselves are off by
  *	approximations_shadow.c		errors of Lambda, masking and tabulated distributions
  *	approximations_real.c		errors of elementary functions
  *	approximations_field.c		masking simulated on explicit height fields
- *	approximations_lobes.h		lobes in single and in double precision (approximations_single.c, approximations_double.c)
+ *	approximations_field.h		the fields, and rays over them
+ *	approximations_lobes.h		lobes in single and in double precision (approximations_single.c, _double.c)
  *	approximations_precision.c	one against the other
  *	approximations_time.c		time of all of them
  *	approximations.c		the section */
@@ -18,7 +20,7 @@
 #include "approximations_ways.h"
 #include "report.h"
 
-/* --- ways ------------------------------------------------------------------------------------------------------------ */
+/* --- ways --------------------------------------------------------------------------------------------------------- */
 
 typedef enum {
 	GROUP_LAMBDA,     /* |z| Lambda of Beckmann's surface; in: x, z of the direction */
@@ -55,7 +57,8 @@ typedef struct {
 extern const approximations_way approximations_ways[];
 size_t approximations_way_count(void);
 
-/* Spectral nodes of the film ways in approximations_loops.c: place nodes over the observer's range. Call once before. */
+/* Spectral nodes of the film ways in approximations_loops.c: place nodes over the observer's range.
+ * Call once before. */
 void approximations_film_nodes(void);
 
 /* The sensitivity of channel 0 .. 2 at wave number nu [1/nm], whose integral is 1 (core/thin_film.h). */
@@ -63,7 +66,7 @@ double approximations_film_sensitivity(int channel, double nu);
 #define FILM_NU_MIN 0.9e-3
 #define FILM_NU_MAX 3.1e-3
 
-/* --- OpenCL ---------------------------------------------------------------------------------------------------------- */
+/* --- OpenCL ------------------------------------------------------------------------------------------------------- */
 
 /* Built-in functions of OpenCL beside the ways of GROUP_REAL. */
 typedef struct {
@@ -85,9 +88,10 @@ int approximations_device_run(approximations_device *device, const char *id, con
 			      const float *const in[APPROXIMATIONS_IN], float *out[APPROXIMATIONS_OUT], int rounds,
 			      double *seconds);
 
-/* --- errors ---------------------------------------------------------------------------------------------------------- */
+/* --- errors ------------------------------------------------------------------------------------------------------- */
 
-/* What a study says of one way. reference: what the exact value itself may be off by; at: where the largest error is. */
+/* What a study says of one way. reference: what the exact value itself may be off by; at: where the
+ * largest error is. */
 typedef struct {
 	double max, sum2, n, albedo, albedo_at[2], reference, albedo_reference;
 	char at[64];
@@ -109,10 +113,20 @@ extern const approximations_part approximations_fresnel, approximations_shadow, 
 
 extern const report_study approximations_field_study, approximations_precision_study, approximations_time_study;
 
-/* --- albedo ---------------------------------------------------------------------------------------------------------- */
+/* --- references --------------------------------------------------------------------------------------------------- */
 
-/* Directions that facets visible from o reflect it to: E = sum weight (G2/z_o) F with sigma(o) in the weight. i.z <= 0 is
- * left out. o.y = 0. */
+/* How far a reference in double precision is from the same in long double (of real: MPFR). */
+double approximations_doubt_fresnel(double exact, double c, double n, double k);
+double approximations_doubt_beckmann_g1(double exact, double a);
+double approximations_doubt_ggx_g2(double exact, double alpha, const double o[3], const double i[3], int across);
+double approximations_doubt_density(double exact, int beckmann, double t);
+double approximations_doubt_hidden(double exact, int beckmann, double t);
+double approximations_doubt_real(const char *name, double reference, float x, float y);
+
+/* --- albedo ------------------------------------------------------------------------------------------------------- */
+
+/* Directions that facets visible from o reflect it to: E = sum weight (G2/z_o) F with sigma(o) in the weight. i.z <= 0
+ * is left out. o.y = 0. */
 enum { ALBEDO_ALPHAS = 4, ALBEDO_COSINES = 6 };
 extern const double albedo_alphas[ALBEDO_ALPHAS], albedo_cosines[ALBEDO_COSINES];
 

@@ -1,13 +1,10 @@
-/* approximations_field.c - masking of pairs of directions simulated on explicit height fields, as a judge of all models.
+/* approximations_field.c - masking of pairs of directions simulated on explicit height fields, as a judge of all
+ * models.
  *
- * The field is a sum of waves of random directions, lengths and phases: Gaussian by the central limit theorem, correlation
- * exp(-r^2/2), slopes of variance 1/2, that is Beckmann's surface of width 1. What is seen of a stretched surface is what is
- * seen of this one from the stretched direction, so that alpha is a matter of angles.
- *
- * Asked is what a reflection needs: of the facets with the half vector's slope, which share do both directions see? A new
- * field is drawn for each answer, and given that slope in its middle by adding what the slope lacks times the field's
- * covariance with it (Matheron): f + (target - slope).x exp(-|x|^2/2) is the Gaussian field of that slope. Answers are
- * independent, and their standard error is the binomial one. */
+ * What is seen of a stretched surface is what is seen of one of width 1 from the stretched direction, so that alpha is
+ * a matter of angles. A new field (approximations_field.h) is drawn for each answer: answers are independent, and their
+ * standard error is the binomial one. tests/test_report_field.c holds the simulation against one that shares nothing
+ * with it, and shows that errors planted in it are found. */
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,14 +12,14 @@
 #include <string.h>
 
 #include "approximations.h"
+#include "approximations_field.h"
 #include "csv.h"
 #include "support.h"
 #include "textbook.h"
 
-#define PI   3.14159265358979323846
-#define STEP 0.04f /* of a ray, in units of which sqrt(2) is the correlation length */
+#define PI 3.14159265358979323846
 
-enum { WAVES = 64, LANES = 16, MODELS = 7 };
+enum { WAVES = APPROXIMATIONS_WAVES, LANES = 16, MODELS = 7 };
 
 static const double alphas[] = {0.2, 0.5, 1.0};
 static const double pairs[][3] = {
@@ -32,13 +29,9 @@ static const double pairs[][3] = {
 };
 enum { ALPHAS = sizeof alphas / sizeof *alphas, PAIRS = sizeof pairs / sizeof *pairs };
 
-typedef struct {
-	float kx[WAVES], ky[WAVES], re[WAVES], im[WAVES]; /* e^(i phase) at the middle */
-	float lack_x, lack_y, height;
-} field;
-
 /* Numbers 0 .. 3 WAVES - 1 of that answer. */
-static void field_make(field *f, uint32_t stream, uint64_t answer, double slope_x, double slope_y)
+void approximations_field_make(approximations_field *f, uint32_t stream, uint64_t answer, double slope_x,
+			       double slope_y)
 {
 	float sx = 0.0f, sy = 0.0f;
 	f->height = 0.0f;
@@ -59,13 +52,12 @@ static void field_make(field *f, uint32_t stream, uint64_t answer, double slope_
 	f->lack_y = (float)slope_y - sy;
 }
 
-/* Whether the ray from the middle along (dx, dy), unit, rising by cot, is free; side -1: below the surface, falling. */
-static int is_free(const field *f, float dx, float dy, float cot, float side)
+int approximations_field_is_free(const approximations_field *f, float dx, float dy, float cot, float side)
 {
 	float re[WAVES], im[WAVES], c[WAVES], s[WAVES];
 	for (int i = 0; i < WAVES; i++) {
-		const lobe_sincos turn =
-			lobe_sincos_2pi((f->kx[i] * dx + f->ky[i] * dy) * (STEP / 6.28318530717958648f));
+		const lobe_sincos turn = lobe_sincos_2pi((f->kx[i] * dx + f->ky[i] * dy) *
+							 (APPROXIMATIONS_FIELD_STEP / 6.28318530717958648f));
 		c[i] = turn.c;
 		s[i] = turn.s;
 		re[i] = f->re[i];
@@ -73,7 +65,7 @@ static int is_free(const field *f, float dx, float dy, float cot, float side)
 	}
 	const float lack = f->lack_x * dx + f->lack_y * dy, start = side * f->height;
 	for (int k = 1;; k++) {
-		const float t = STEP * (float)k, ray = start + cot * t;
+		const float t = APPROXIMATIONS_FIELD_STEP * (float)k, ray = start + cot * t;
 		float sum[LANES] = {0.0f}, height = 0.0f;
 		/* Five deviations up there is no field any more. */
 		if (ray > 3.6f)
@@ -93,7 +85,7 @@ static int is_free(const field *f, float dx, float dy, float cot, float side)
 	}
 }
 
-/* --- models ------------------------------------------------------------------------------------------------------------- */
+/* --- models ------------------------------------------------------------------------------------------------------- */
 
 static const char *const models[2][MODELS] = {{"Smith; separable", "Smith; height-correlated",
 					       "Smith; direction-correlated", "Smith; height and direction",
@@ -153,11 +145,11 @@ static int run(int quick, size_t unit, report_rows *rows)
 	    hypot(slope_x, slope_y) > 2.5)
 		return 0;
 	for (uint64_t n = 0; n < answers; n++) {
-		field f;
-		field_make(&f, 4000u + (uint32_t)unit, n, slope_x, slope_y);
-		const int a = is_free(&f, 1.0f, 0.0f, (float)(cos(to) / (sin(to) * alpha)), 1.0f);
-		const int b = is_free(&f, (float)cos(phi), (float)sin(phi), (float)(cos(ti) / (sin(ti) * alpha)),
-				      across ? -1.0f : 1.0f);
+		approximations_field f;
+		approximations_field_make(&f, 4000u + (uint32_t)unit, n, slope_x, slope_y);
+		const int a = approximations_field_is_free(&f, 1.0f, 0.0f, (float)(cos(to) / (sin(to) * alpha)), 1.0f);
+		const int b = approximations_field_is_free(&f, (float)cos(phi), (float)sin(phi),
+							   (float)(cos(ti) / (sin(ti) * alpha)), across ? -1.0f : 1.0f);
 		seen[0] += a;
 		seen[1] += b;
 		seen[2] += a & b;

@@ -1,5 +1,5 @@
-/* approximations_lobes_loops.h - the body of approximations_single.c and approximations_double.c: loops over lobes, whose
- * names end in PRECISION. */
+/* approximations_lobes_loops.h - the body of approximations_single.c and approximations_double.c: loops over lobes,
+ * whose names end in PRECISION. */
 #include "../timing.h"
 #include "approximations_lobes.h"
 #include "approximations_side.h"

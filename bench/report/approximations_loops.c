@@ -1,5 +1,5 @@
-/* approximations_loops.c - every way of approximations_ways.h as two loops: one that the compiler vectorises where it can,
- * as it does the library's (the same options, src/rows.c), and one that computes a value after another. */
+/* approximations_loops.c - every way of approximations_ways.h as two loops: one that the compiler vectorises where it
+ * can, as it does the library's (the same options, src/rows.c), and one that computes a value after another. */
 #define LOBE_FN       static inline __attribute__((always_inline, unused))
 #define LOBE_FN_APART LOBE_FN
 
@@ -56,10 +56,10 @@ LOBE_FN lobe_real approximations_density(lobe_facet_density d) { return d.inv * 
 	LOOP(id##_vector, STORE_3(value), SIDE_BY_SIDE) LOOP(id##_scalar, STORE_3(value), ONE_BY_ONE)
 APPROXIMATIONS_WAYS(LOOPS, LOOPS_3, LOOPS, LOOPS_3)
 
-/* --- a film by its spectrum -------------------------------------------------------------------------------------------- */
+/* --- a film by its spectrum --------------------------------------------------------------------------------------- */
 
-/* The four Gaussians of core/thin_film.h over wave number: centre and standard deviation [1/nm], and their weights in red,
- * green and blue. */
+/* The four Gaussians of core/thin_film.h over wave number: centre and standard deviation [1/nm], and their weights in
+ * red, green and blue. */
 static const double gaussian[4][5] = {{1.6810e-3, 9.30354e-5, 2.66236469, -0.84242389, 0.05381666},
 				      {2.2399e-3, 9.51651e-5, 0.48388658, -0.15311112, 0.00978121},
 				      {1.7953e-3, 1.364155e-4, -1.66612412, 1.95576345, -0.21459656},
@@ -132,7 +132,7 @@ SPECTRUM(film_16_scalar, 16, ONE_BY_ONE)
 SPECTRUM(film_32_vector, 32, SIDE_BY_SIDE)
 SPECTRUM(film_32_scalar, 32, ONE_BY_ONE)
 
-/* --- the list ------------------------------------------------------------------------------------------------------------ */
+/* --- the list ----------------------------------------------------------------------------------------------------- */
 
 const char *const approximations_groups[GROUPS] = {"lambda", "dielectric", "conductor", "film",    "masking",
 						   "across", "density",    "hidden",    "visible", "real"};

@@ -1,4 +1,5 @@
-/* approximations_precision.c - lobes in single precision against themselves in double: what one pays for half the bytes. */
+/* approximations_precision.c - lobes in single precision against themselves in double: what one pays for half the
+ * bytes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,8 +37,8 @@ static void row(report_rows *rows, const test_case *c, const char *verb, double 
 		   off[(n - 1) * 999 / 1000], off[n - 1], albedo);
 }
 
-/* View cosines .05 to 1; light from where samples go. The albedo is the mean weight of the same samples. A sample that goes
- * another way in double, as it chose the other side of the surface, is not compared but for the albedo. */
+/* View cosines .05 to 1; light from where samples go. The albedo is the mean weight of the same samples. A sample that
+ * goes another way in double, as it chose the other side of the surface, is not compared but for the albedo. */
 static int run(int quick, size_t unit, report_rows *rows)
 {
 	const test_case *c = case_at(unit);

@@ -1,4 +1,6 @@
-/* approximations_shadow.c - errors of Beckmann's Lambda, of masking on a GGX surface, and of distributions from a table. */
+/* approximations_shadow.c - errors of Beckmann's Lambda, of masking on a GGX surface, and of distributions from a
+ * table. */
+#include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +34,7 @@ static float one(const approximations_way *way, const approximations_set *p, flo
 	return r;
 }
 
-/* --- Lambda --------------------------------------------------------------------------------------------------------------- */
+/* --- Lambda ------------------------------------------------------------------------------------------------------- */
 
 /* 1/(1 + Lambda) of tangent r/z in the textbook's form, with erfc so that nothing cancels up to where it is 1. */
 static double exact_g1(double r, double z)
@@ -47,14 +49,17 @@ static void lambda(int quick, report_rows *rows)
 	static const approximations_set p;
 	for (size_t w = 0; w < approximations_way_count(); w++) {
 		const approximations_way *way = &approximations_ways[w];
-		approximations_error e = {.reference = 1e-14};
+		approximations_error e = {0};
 		if (way->group != GROUP_LAMBDA)
 			continue;
 		for (size_t i = 0; i < samples; i++) {
 			/* cot theta/alpha from .01 to 10 */
 			const float z = (float)(0.01 * pow(1000.0, ((double)i + 0.5) / (double)samples));
 			const double got = (double)z / ((double)z + (double)one(way, &p, 1.0f, z, 0.0f));
-			approximations_error_add(&e, got, exact_g1(1.0, (double)z), "cot/alpha %.3g", (double)z);
+			const double exact = exact_g1(1.0, (double)z);
+			approximations_error_add(&e, got, exact, "cot/alpha %.3g", (double)z);
+			if (i % 8 == 0)
+				e.reference = fmax(e.reference, approximations_doubt_beckmann_g1(exact, (double)z));
 		}
 		for (int a = 0; a < ALBEDO_ALPHAS; a++)
 			for (int m = 0; m < ALBEDO_COSINES; m++) {
@@ -84,10 +89,10 @@ static void lambda(int quick, report_rows *rows)
 	}
 }
 
-/* --- masking ---------------------------------------------------------------------------------------------------------------- */
+/* --- masking ------------------------------------------------------------------------------------------------------ */
 
-/* Pairs of directions by equal steps of both cosines and the azimuth between; against Smith's height-correlated masking or,
- * across, the beta function, in double. */
+/* Pairs of directions by equal steps of both cosines and the azimuth between; against Smith's height-correlated masking
+ * or, across, the beta function, in double. */
 static void masking(approximations_group group, double alpha, int quick, report_rows *rows)
 {
 	const int steps = quick ? 24 : 64;
@@ -98,7 +103,7 @@ static void masking(approximations_group group, double alpha, int quick, report_
 	const double width = (double)p.surface.map.xx;
 	for (size_t w = 0; w < approximations_way_count(); w++) {
 		const approximations_way *way = &approximations_ways[w];
-		approximations_error e = {.reference = group == GROUP_ACROSS ? 1e-12 : 1e-14};
+		approximations_error e = {0};
 		if (way->group != group)
 			continue;
 		for (int i = 0; i < steps; i++)
@@ -118,6 +123,10 @@ static void masking(approximations_group group, double alpha, int quick, report_
 					run_loop(way, &p, 1, x, x + 1, x + 2, x + 3, x + 4, &r, &r, &r);
 					approximations_error_add(&e, (double)r, exact, "cos %.3g %.3g; phi %.0f", oz,
 								 iz, phi * 57.29577951);
+					if (f == 0)
+						e.reference = fmax(e.reference,
+								   approximations_doubt_ggx_g2(exact, width, o, in,
+											       group == GROUP_ACROSS));
 				}
 		for (int m = 0; m < ALBEDO_COSINES && group == GROUP_MASKING; m++) {
 			double off[2] = {0.0, 0.0};
@@ -142,7 +151,7 @@ static void masking(approximations_group group, double alpha, int quick, report_
 	}
 }
 
-/* --- tables ----------------------------------------------------------------------------------------------------------------- */
+/* --- tables ------------------------------------------------------------------------------------------------------- */
 
 static double ggx_profile(void *context, double t)
 {
@@ -156,20 +165,40 @@ static double beckmann_profile(void *context, double t)
 	return exp(-t * t);
 }
 
-/* The mean of o.m over visible normals of d, less that over ndf's own. */
-static double mean_facing(lobe_distribution d, unsigned ndf, double alpha, double cosine, int side)
+/* x, y: points and weights of u.x and u.y. */
+static double mean_facing(lobe_smith s, lobe_vec3 o, const double (*x)[2], const double (*y)[2], size_t n)
 {
+	double sum = 0.0;
+	for (size_t i = 0; i < n; i++)
+		for (size_t k = 0; k < n; k++) {
+			const lobe_vec2 u = lobe_vec2_make((float)x[i][0], (float)y[k][0]);
+			sum += x[i][1] * y[k][1] * (double)lobe_dot(o, lobe_smith_visible(s, o, u));
+		}
+	return sum;
+}
+
+/* The mean of o.m over visible normals of d, less that over ndf's own. By Gauss points of u = v^2 (3 - 2 v), which
+ * crowd at both ends: there a distribution's tail is, and where facets turn away. GGX's own u.x is an azimuth: equal
+ * steps. */
+static double facing_off(lobe_distribution d, unsigned ndf, double alpha, double cosine, size_t n)
+{
+	double ends[2 * SIDE][2], turn[2 * SIDE][2];
 	const lobe_smith tabled = lobe_smith_make(d, stretch(alpha));
 	const lobe_smith own = lobe_smith_make(lobe_distribution_make(ndf), stretch(alpha));
 	const lobe_vec3 o = lobe_vec3_make((float)sqrt((1.0 - cosine) * (1.0 + cosine)), 0.0f, (float)cosine);
-	double sum = 0.0;
-	for (int i = 0; i < side * side; i++) {
-		const lobe_vec2 u = lobe_vec2_make(((float)(i % side) + 0.5f) / (float)side,
-						   ((float)(i / side) + 0.5f) / (float)side);
-		sum += (double)lobe_dot(o, lobe_smith_visible(tabled, o, u)) -
-		       (double)lobe_dot(o, lobe_smith_visible(own, o, u));
+	gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
+	for (size_t i = 0; i < n; i++) {
+		double v, weight;
+		gsl_integration_glfixed_point(0.0, 1.0, i, &v, &weight, table);
+		ends[i][0] = v * v * (3.0 - 2.0 * v);
+		ends[i][1] = weight * 6.0 * v * (1.0 - v);
+		turn[i][0] = ((double)i + 0.5) / (double)n;
+		turn[i][1] = 1.0 / (double)n;
 	}
-	return sum / ((double)side * side);
+	gsl_integration_glfixed_table_free(table);
+	const double(*x)[2] = (const double(*)[2])(ndf == LOBE_NDF_GGX ? turn : ends);
+	const double(*y)[2] = (const double(*)[2])ends;
+	return mean_facing(tabled, o, y, y, n) - mean_facing(own, o, x, y, n);
 }
 
 static int tables(unsigned ndf, int quick, report_rows *rows)
@@ -177,7 +206,7 @@ static int tables(unsigned ndf, int quick, report_rows *rows)
 	const char *const name = ndf == LOBE_NDF_GGX ? "GGX" : "Beckmann";
 	const uint32_t samples = quick ? 20000u : 400000u;
 	approximations_set p;
-	approximations_error e[3] = {{.reference = 1e-14}, {.reference = 1e-13}, {.reference = 0.0}};
+	approximations_error e[3] = {{.max = 0.0}, {.max = 0.0}, {.max = 0.0}};
 	float *table = report_alloc(NULL, LOBE_PROFILE_WORDS * sizeof *table);
 	memset(&p, 0, sizeof p);
 	if (lobe_distribution_tabulated(&p.surface.distribution, table, LOBE_PROFILE_WORDS,
@@ -188,7 +217,8 @@ static int tables(unsigned ndf, int quick, report_rows *rows)
 	}
 	const lobe_distribution d = p.surface.distribution;
 	for (uint32_t i = 0; i < samples; i++) {
-		/* tan/alpha from .01 to 3 of a facet (D down to 1e-4 of its peak), cot/alpha from .01 to 3 of a direction: relative. */
+		/* tan/alpha from .01 to 3 of a facet (D down to 1e-4 of its peak), cot/alpha from .01 to 3 of a
+		 * direction: relative. */
 		const double t = 0.01 * pow(300.0, ((double)i + 0.5) / (double)samples);
 		const double x = (double)(float)t,
 			     exact_d = ndf == LOBE_NDF_GGX ? ggx_profile(NULL, x) : beckmann_profile(NULL, x);
@@ -200,6 +230,11 @@ static int tables(unsigned ndf, int quick, report_rows *rows)
 		approximations_error_add(
 			&e[1], (double)lobe_tabulated_hidden(d, lobe_vec3_make(1.0f, 0.0f, (float)x)) / exact_h, 1.0,
 			"cot/alpha %.3g", x);
+		if (i % 8 == 0) {
+			const int beckmann = ndf != LOBE_NDF_GGX;
+			e[0].reference = fmax(e[0].reference, approximations_doubt_density(exact_d, beckmann, x));
+			e[1].reference = fmax(e[1].reference, approximations_doubt_hidden(exact_h, beckmann, x));
+		}
 	}
 	/* Albedo of the lobe with D and Lambda of the table. */
 	for (int a = 0; a < ALBEDO_ALPHAS; a++)
@@ -224,14 +259,11 @@ static int tables(unsigned ndf, int quick, report_rows *rows)
 			}
 			approximations_error_albedo(&e[0], all[1], fabs(all[1] - all[0]) / 3.0, albedo_alphas[a],
 						    albedo_cosines[m]);
-			/* Smooth, unlike an albedo, whose horizon would ask for a finer grid. */
-			double facing[2];
-			for (int level = 0; level < 2; level++)
-				facing[level] =
-					mean_facing(d, ndf, albedo_alphas[a], albedo_cosines[m], 2 * sides[level]);
-			approximations_error_add(&e[2], facing[1], 0.0, "alpha %g; cos %g", albedo_alphas[a],
+			const double coarse = facing_off(d, ndf, albedo_alphas[a], albedo_cosines[m], SIDE);
+			const double facing = facing_off(d, ndf, albedo_alphas[a], albedo_cosines[m], 2 * SIDE);
+			approximations_error_add(&e[2], facing, 0.0, "alpha %g; cos %g", albedo_alphas[a],
 						 albedo_cosines[m]);
-			e[2].reference = fmax(e[2].reference, fabs(facing[1] - facing[0]) / 3.0);
+			e[2].reference = fmax(e[2].reference, fabs(facing - coarse));
 		}
 	approximations_error_row(rows, "density", "table", name, "D; relative; tan/alpha .01 to 3", &e[0]);
 	approximations_error_row(rows, "hidden", "table", name, "Lambda; relative; cot/alpha .01 to 3", &e[1]);

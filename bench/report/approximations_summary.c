@@ -103,6 +103,15 @@ static void cell(report_page *page, double x, const char *format)
 		report_text(page, format, x);
 }
 
+/* An error that is not ten times its reference's: what it is below. */
+static void error_cell(report_page *page, double x, double reference)
+{
+	if (x < 10.0 * reference)
+		report_text(page, " < %.1g |", x + reference);
+	else
+		cell(page, x, " %.2g |");
+}
+
 void approximations_table(report_page *page, const approximations_summary *all, int n, const char *unit)
 {
 	report_text(page,
@@ -113,10 +122,10 @@ void approximations_table(report_page *page, const approximations_summary *all, 
 	for (int i = 0; i < n; i++) {
 		const approximations_summary *s = &all[i];
 		report_text(page, "| %s%s%s |", s->front ? "**" : "", s->name, s->front ? "**" : "");
-		cell(page, s->max, " %.2g |");
+		error_cell(page, s->max, s->reference);
 		report_text(page, " %s |", s->max_case);
-		cell(page, s->rms, " %.2g |");
-		cell(page, s->albedo, " %.2g |");
+		error_cell(page, s->rms, s->reference);
+		error_cell(page, s->albedo, s->albedo_reference);
 		report_text(page, " %s |", s->albedo_case);
 		report_text(page, isnan(s->albedo_reference) ? " %.0e |" : " %.0e; albedo %.0e |", s->reference,
 			    s->albedo_reference);

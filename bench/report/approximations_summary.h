@@ -1,5 +1,5 @@
-/* approximations_summary.h - what the section's rows say of one way to compute something: its errors over all cases, its
- * times, and whether it is on the front of the two. */
+/* approximations_summary.h - what the section's rows say of one way to compute something: its errors over all cases,
+ * its times, and whether it is on the front of the two. */
 #ifndef LOBE_BENCH_APPROXIMATIONS_SUMMARY_H
 #define LOBE_BENCH_APPROXIMATIONS_SUMMARY_H
 
@@ -7,7 +7,8 @@
 
 enum { APPROXIMATIONS_WAYS_MAX = 48 };
 
-/* Over all cases, or one. rms: root of the mean of the cases' squares. Times [ns] of a call: NaN where there is none. */
+/* Over all cases, or one. rms: root of the mean of the cases' squares. Times [ns] of a call: NaN where
+ * there is none. */
 typedef struct {
 	const char *group, *name;
 	double max, rms, albedo, reference, albedo_reference, ns[3];

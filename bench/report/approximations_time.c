@@ -1,4 +1,5 @@
-/* approximations_time.c - time of a call of every way: in a loop that vectorises, one by one, and as an OpenCL kernel. */
+/* approximations_time.c - time of a call of every way: in a loop that vectorises, one by one, and as
+ * an OpenCL kernel. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* approximations_ways.h - every way to compute what the section compares, once.
  *
- * WAY(group, id, name, exact, value) has one output, WAY_3 three. The value is C and, as text, OpenCL C; it may use x, y, z,
- * s, t (the group's inputs) and p, the approximations_set. HOST and HOST_3 are C alone. */
+ * WAY(group, id, name, exact, value) has one output, WAY_3 three. The value is C and, as text, OpenCL C; it may use x,
+ * y, z, s, t (the group's inputs) and p, the approximations_set. HOST and HOST_3 are C alone. */
 #ifndef LOBE_BENCH_REPORT_APPROXIMATIONS_WAYS_H
 #define LOBE_BENCH_REPORT_APPROXIMATIONS_WAYS_H
 
