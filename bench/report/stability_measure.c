@@ -228,10 +228,10 @@ static int ask(const stability_case *c, stability_verb verb, stability_question 
 	return 1;
 }
 
-/* 1/(pi |det A|), where the surface has widths. */
+/* 1/(pi |det A|), where the surface has widths; Phong's distribution before that has (n + 2)/(2 pi). */
 static double peak_of(const stability_case *c)
 {
-	const double *p = c->parameter;
+	const double *p = c->parameter, shape = p[8] == LOBE_NDF_PHONG ? 1.0 + 0.5 * p[9] : 1.0;
 	switch (c->kind) {
 	case LOBE_KIND_LAMBERT:
 	case LOBE_KIND_MIRROR:
@@ -242,7 +242,7 @@ static double peak_of(const stability_case *c)
 	case LOBE_KIND_MICROFACET_CONDUCTOR:
 	case LOBE_KIND_MICROFACET_DIELECTRIC:
 	case LOBE_KIND_MICROFACET_DIFFUSE:
-		return fmax(1.0, 0.318309886183790672 / fabs(p[0] * p[1] - p[11] * p[12]));
+		return fmax(1.0, shape * 0.318309886183790672 / fabs(p[0] * p[1] - p[11] * p[12]));
 	default:
 		return fmax(1.0, 0.318309886183790672 / (p[0] * p[1]));
 	}
