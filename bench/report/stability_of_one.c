@@ -181,7 +181,8 @@ static stability_class reflectance_of(lobe_uint kind)
 	}
 }
 
-stability_of_one stability_of_one_make(const stability_case *c, stability_question q, const long double *x)
+stability_of_one stability_of_one_make(const stability_case *c, stability_question q,
+				       const long double x[STABILITY_INPUTS])
 {
 	stability_of_one most = {0.0, STABILITY_PLAIN};
 	long double mirror[STABILITY_INPUTS], moved = 0.0L;
