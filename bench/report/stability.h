@@ -71,7 +71,7 @@ typedef enum {
 	 * asking the reference again. The reflectance of a metal (core/fresnel.h promises it so) ... */
 	STABILITY_METAL,
 	STABILITY_SCHLICK,      /* ... a Schlick curve that falls (core/fresnel_schlick.h) ... */
-	STABILITY_INTERFERENCE, /* ... waves in a film, whose unit is 2^-22 (core/airy.h) ... */
+	STABILITY_INTERFERENCE, /* ... waves in a film, by 2^-22 for each time to and fro (core/airy.h) ... */
 	STABILITY_INTERFACE,    /* ... reflectance or transmittance of glass ... */
 	STABILITY_COSINE, /* ... the cosine to the facet: light leaves eta = 1000 by a cone of 1 - cos = 5e-7 ... */
 	STABILITY_RIM, /* ... the two points of a sphere, opposite near its rim, that add up to a visible normal ... */

@@ -90,8 +90,7 @@ static const char *const meanings[STABILITY_CLASSES] = {
 	"floor",
 	"a metal's reflectance, of one (`core/fresnel.h`)",
 	"Schlick's curve where it falls to f90 < f0, of one (`core/fresnel_schlick.h`)",
-	"waves in a film that cancel, of one in units of 2^-22, a quarter of the index times that above 4 "
-	"(`core/airy.h`)",
+	"waves in a film that cancel, of one in units of 2^-22 for each time that they go to and fro (`core/airy.h`)",
 	"reflectance or transmittance of glass, of one (`core/fresnel.h`)",
 	"the cosine to the facet, of one: near total reflection, and where light leaves eta = 1000 by a cone of 1 - "
 	"cos = 5e-7",

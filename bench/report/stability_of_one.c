@@ -66,14 +66,40 @@ static int nudged(const long double *x, long double e, long double delta, long d
 	return 1;
 }
 
+/* The cosine of wo to the facet. */
+static double cosine_of(const long double *x, long double e)
+{
+	const long double e_r = x[2] * x[5] < 0.0L ? e : 1.0L;
+	long double length2 = 0.0L, along = 0.0L;
+	for (int k = 0; k < 3; k++) {
+		const long double h = x[k] + e_r * x[3 + k];
+		length2 += h * h;
+		along += h * x[k];
+	}
+	return length2 > 0.0L ? (double)fminl(fabsl(along) / sqrtl(length2), 1.0L) : 1.0;
+}
+
+/* How often a wave goes to and fro in a film on glass before it is spent, by the amplitudes across the plane of incidence; c:
+ * cosine on the near side, e: far index over near. */
+static double bounces(double c, double e, double index, double base)
+{
+	const double thin2 = e < 1.0 ? 1.0 - (1.0 - c * c) / (e * e) : c * c;
+	if (!(thin2 > 0.0))
+		return 1.0;
+	const double g = sqrt(index * index - 1.0 + thin2), far = sqrt(base * base - 1.0 + thin2);
+	const double r12 = (g - sqrt(thin2)) / (g + sqrt(thin2)), r23 = fabs(far - g) / (far + g);
+	return 1.0 / (1.0 - r12 * r23);
+}
+
 /* Films have GGX's surface and masking: what is left of an answer over that of a white one is the film's share, of a weight
- * over the mean share. A film of index n resonates over about n/4 bounces. */
+ * over the mean share. Over a metal a film of index n resonates over about n/4 bounces. */
 static void film(stability_of_one *most, const stability_case *c, stability_question q, const long double *x)
 {
 	const int glass = c->kind == LOBE_KIND_IRIDESCENT_DIELECTRIC;
 	const double index = glass ? c->parameter[3] / fmin(c->parameter[4], 1.0) : c->parameter[3];
-	const double unit = 0x1p-22 * fmax(1.0, 0.25 * index);
 	const long double base = glass ? x[6 + 4] : 1.0L, e = x[2] > 0.0L ? base : 1.0L / base;
+	const double often = glass ? bounces(cosine_of(x, e), (double)e, index, (double)fmaxl(base, 1.0L / base)) : 1.0;
+	const double unit = 0x1p-22 * fmax(often, 0.25 * index);
 	long double bare[STABILITY_INPUTS], moved[STABILITY_INPUTS];
 	memcpy(bare, x, sizeof bare);
 	if (glass) {
@@ -155,7 +181,8 @@ static stability_class reflectance_of(lobe_uint kind)
 	}
 }
 
-stability_of_one stability_of_one_make(const stability_case *c, stability_question q, const long double *x)
+stability_of_one stability_of_one_make(const stability_case *c, stability_question q,
+				       const long double x[STABILITY_INPUTS])
 {
 	stability_of_one most = {0.0, STABILITY_PLAIN};
 	long double mirror[STABILITY_INPUTS], moved = 0.0L;
