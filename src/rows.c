@@ -128,24 +128,49 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_PDF]);                                    \
 	}
 
-#define ROW_SAMPLE(name, which)                                                                                        \
-	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS, F_OUTPUTS, float *restrict pdf)                                  \
+#define SAMPLE_LOOP(name, which, plain)                                                                                \
+	NOINLINE void name(INPUTS, WI_OUTPUTS, F_OUTPUTS, float *restrict pdf)                                         \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
 		TWICE for (size_t i = 0; i < n; i++)                                                                   \
 		{                                                                                                      \
 			FETCH(which)                                                                                   \
-			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \
+			plain const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                     \
 			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \
 			STORE_3(fr, fg, fb, s.weight, r, g, b);                                                        \
 			pdf[i] = s.pdf;                                                                                \
 			event[i] = s.event;                                                                            \
 		}                                                                                                      \
-	}                                                                                                              \
+	}
+#define SAMPLE_ARGS                                                                                                    \
+	INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT], out[3], out[4], out[5], out[LOBE_OUT_SAMPLE_PDF]
+
+/* Samples of one material come a second time without a feature that few materials have, whose selections take time from all
+ * others: where the Makefile names the flag that says so. */
+#ifdef LOBE_ROW_RARE
+#define IS_PLAIN(table) (((const PARAMS *)(table))->LOBE_ROW_RARE == 0)
+#define PLAIN           p.LOBE_ROW_RARE = 0;
+#else
+#define IS_PLAIN(table) 0
+#define PLAIN
+#endif
+
+#define ROW_SAMPLE_ONE(name)                                                                                           \
+	SAMPLE_LOOP(name##_loop, ONE, )                                                                                \
+	SAMPLE_LOOP(name##_plain_loop, ONE, PLAIN)                                                                     \
 	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
 	{                                                                                                              \
-		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT], out[3], out[4], out[5],           \
-			    out[LOBE_OUT_SAMPLE_PDF]);                                                                 \
+		if (IS_PLAIN(table))                                                                                   \
+			name##_plain_loop(SAMPLE_ARGS);                                                                \
+		else                                                                                                   \
+			name##_loop(SAMPLE_ARGS);                                                                      \
+	}
+
+#define ROW_SAMPLE_MANY(name)                                                                                          \
+	SAMPLE_LOOP(name##_loop, MANY, )                                                                               \
+	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
+	{                                                                                                              \
+		name##_loop(SAMPLE_ARGS);                                                                              \
 	}
 
 #define ROW_SAMPLE_WI(name, which)                                                                                     \
@@ -168,12 +193,12 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 ROW_EVAL_F(eval_f_one, ONE)
 ROW_EVAL_PDF(eval_pdf_one, ONE)
 ROW_EVAL_F_PDF(eval_f_pdf_one, ONE)
-ROW_SAMPLE(sample_one, ONE)
+ROW_SAMPLE_ONE(sample_one)
 ROW_SAMPLE_WI(sample_wi_one, ONE)
 ROW_EVAL_F(eval_f_many, MANY)
 ROW_EVAL_PDF(eval_pdf_many, MANY)
 ROW_EVAL_F_PDF(eval_f_pdf_many, MANY)
-ROW_SAMPLE(sample_many, MANY)
+ROW_SAMPLE_MANY(sample_many)
 ROW_SAMPLE_WI(sample_wi_many, MANY)
 
 const lobe_rows PASTE(PASTE(PASTE(lobe_rows_, LOBE_ROW_ISA), _), LOBE_ROW) = {
