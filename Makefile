@@ -49,8 +49,8 @@ ROW_CFLAGS := $(LIB_CFLAGS) $(if $(filter -g%,$(CFLAGS)),-g1) $(ROW_OPT) $(forea
 TUNE_avx512_ggx_dielectric := -mtune=icelake-server
 TUNE_avx512_beckmann_dielectric := -mtune=icelake-server
 
-# A flag that few materials set (rows.c): refraction as a delta event.
-RARE_ggx_dielectric := -DLOBE_ROW_RARE=delta
+# Lobes that have a plain form (rows.c).
+PLAIN_ggx_dielectric := -DLOBE_ROW_PLAIN=lobe_rough_dielectric
 
 # The compiler's own account of what it vectorised goes to rows_*.vec, beside the object: tests/test_vectorised.sh reads it.
 ROW_REPORT := $(firstword $(foreach f,-fopt-info-vec-optimized= -foptimization-record-file=,\
@@ -101,7 +101,7 @@ define ROW_RULE
 $(ROW_DIR)/rows_$(1)_$(2).o: src/rows.c $(HEADERS) | $(B)/obj
 	@echo "  cc    $$@"
 	@rm -f $$(@:.o=.vec)
-	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) $(TUNE_$(1)_$(2)) $(RARE_$(2)) $$(if $(ROW_REPORT),$(ROW_REPORT)$$(@:.o=.vec)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) \
+	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) $(TUNE_$(1)_$(2)) $(PLAIN_$(2)) $$(if $(ROW_REPORT),$(ROW_REPORT)$$(@:.o=.vec)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) \
 		-c src/rows.c -o $$@
 endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))

@@ -115,6 +115,9 @@ static double last_l(const curve *c)
 	return lo;
 }
 
+/* Between two places, where X is a float: what is known of the curve at a knot is then known of where the table has it. */
+static double middle_l(double a, double b) { return log((double)(float)exp(0.5 * (a + b))); }
+
 /* Splits the worst piece until there are enough, in order. */
 static void fit(const curve *c, piece *pieces, size_t count)
 {
@@ -131,7 +134,7 @@ static void fit(const curve *c, piece *pieces, size_t count)
 		piece *p = &pieces[worst];
 		memmove(p + 1, p, (n - worst) * sizeof *p);
 		n++;
-		p[0].b = p[1].a = knot_at(c, 0.5 * (p[0].a.l + p[0].b.l));
+		p[0].b = p[1].a = knot_at(c, middle_l(p[0].a.l, p[0].b.l));
 		p[0].error = piece_error(c, &p[0], log_top);
 		p[1].error = piece_error(c, &p[1], log_top);
 	}

@@ -80,53 +80,45 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 		z[i] = (v).c;                                                                                          \
 	} while (0)
 
-#define ROW_EVAL_F(name, which)                                                                                        \
-	NOINLINE void name##_loop(INPUTS, F_OUTPUTS)                                                                   \
+/* KIND_LOOP defines the loop of a verb, KIND_ARGS is what it takes. */
+#define EVAL_F_LOOP(name, which, plain)                                                                                \
+	NOINLINE void name(INPUTS, F_OUTPUTS)                                                                          \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
 		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
 		{                                                                                                      \
 			FETCH(which)                                                                                   \
-			const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                                \
+			plain const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                          \
 			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
 		}                                                                                                      \
-	}                                                                                                              \
-	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
-	{                                                                                                              \
-		name##_loop(INPUT_ARGS, out[0], out[1], out[2]);                                                       \
 	}
+#define EVAL_F_ARGS INPUT_ARGS, out[0], out[1], out[2]
 
-#define ROW_EVAL_PDF(name, which)                                                                                      \
-	NOINLINE void name##_loop(INPUTS, float *restrict pdf)                                                         \
+#define EVAL_PDF_LOOP(name, which, plain)                                                                              \
+	NOINLINE void name(INPUTS, float *restrict pdf)                                                                \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
 		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
 		{                                                                                                      \
 			FETCH(which)                                                                                   \
-			pdf[i] = CALL(_pdf)(p, WO, WI_OR_U);                                                           \
+			plain pdf[i] = CALL(_pdf)(p, WO, WI_OR_U);                                                     \
 		}                                                                                                      \
-	}                                                                                                              \
-	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
-	{                                                                                                              \
-		name##_loop(INPUT_ARGS, out[LOBE_OUT_PDF]);                                                            \
 	}
+#define EVAL_PDF_ARGS INPUT_ARGS, out[LOBE_OUT_PDF]
 
-#define ROW_EVAL_F_PDF(name, which)                                                                                    \
-	NOINLINE void name##_loop(INPUTS, F_OUTPUTS, float *restrict pdf)                                              \
+#define EVAL_F_PDF_LOOP(name, which, plain)                                                                            \
+	NOINLINE void name(INPUTS, F_OUTPUTS, float *restrict pdf)                                                     \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
 		VECTORISE for (size_t i = 0; i < n; i++)                                                               \
 		{                                                                                                      \
 			FETCH(which)                                                                                   \
-			const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                                \
+			plain const lobe_rgb f = CALL(_eval)(p, WO, WI_OR_U);                                          \
 			STORE_3(fr, fg, fb, f, r, g, b);                                                               \
 			pdf[i] = CALL(_pdf)(p, WO, WI_OR_U);                                                           \
 		}                                                                                                      \
-	}                                                                                                              \
-	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
-	{                                                                                                              \
-		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_PDF]);                                    \
 	}
+#define EVAL_F_PDF_ARGS INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_PDF]
 
 #define SAMPLE_LOOP(name, which, plain)                                                                                \
 	NOINLINE void name(INPUTS, WI_OUTPUTS, F_OUTPUTS, float *restrict pdf)                                         \
@@ -145,61 +137,62 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 #define SAMPLE_ARGS                                                                                                    \
 	INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT], out[3], out[4], out[5], out[LOBE_OUT_SAMPLE_PDF]
 
-/* Samples of one material come a second time without a feature that few materials have, whose selections take time from all
- * others: where the Makefile names the flag that says so. */
-#ifdef LOBE_ROW_RARE
-#define IS_PLAIN(table) (((const PARAMS *)(table))->LOBE_ROW_RARE == 0)
-#define PLAIN           p.LOBE_ROW_RARE = 0;
-#else
-#define IS_PLAIN(table) 0
-#define PLAIN
-#endif
-
-#define ROW_SAMPLE_ONE(name)                                                                                           \
-	SAMPLE_LOOP(name##_loop, ONE, )                                                                                \
-	SAMPLE_LOOP(name##_plain_loop, ONE, PLAIN)                                                                     \
-	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
-	{                                                                                                              \
-		if (IS_PLAIN(table))                                                                                   \
-			name##_plain_loop(SAMPLE_ARGS);                                                                \
-		else                                                                                                   \
-			name##_loop(SAMPLE_ARGS);                                                                      \
-	}
-
-#define ROW_SAMPLE_MANY(name)                                                                                          \
-	SAMPLE_LOOP(name##_loop, MANY, )                                                                               \
-	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
-	{                                                                                                              \
-		name##_loop(SAMPLE_ARGS);                                                                              \
-	}
-
-#define ROW_SAMPLE_WI(name, which)                                                                                     \
-	NOINLINE void name##_loop(INPUTS, WI_OUTPUTS)                                                                  \
+#define SAMPLE_WI_LOOP(name, which, plain)                                                                             \
+	NOINLINE void name(INPUTS, WI_OUTPUTS)                                                                         \
 	{                                                                                                              \
 		(void)slot;                                                                                            \
 		TWICE for (size_t i = 0; i < n; i++)                                                                   \
 		{                                                                                                      \
 			FETCH(which)                                                                                   \
-			const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                           \
+			plain const lobe_sample s = CALL(_sample)(p, WO, WI_OR_U);                                     \
 			STORE_3(wx, wy, wz, s.wi, x, y, z);                                                            \
 			event[i] = s.event;                                                                            \
 		}                                                                                                      \
-	}                                                                                                              \
-	static void name(const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)  \
+	}
+#define SAMPLE_WI_ARGS INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT]
+
+/* Loops over one material come a second time without what few materials need, whose selections take time from all others:
+ * where the Makefile names the prefix of the lobe's functions that tell, _is_plain and _plain. */
+#ifdef LOBE_ROW_PLAIN
+#define IS_PLAIN(table) PASTE(LOBE_ROW_PLAIN, _is_plain)(*(const PARAMS *)(table))
+#define PLAIN           p = PASTE(LOBE_ROW_PLAIN, _plain)(p);
+#else
+#define IS_PLAIN(table) 0
+#define PLAIN
+#endif
+
+#define ROW_ONE(name, kind)                                                                                            \
+	kind##_LOOP(name##_loop, ONE, ) kind##_LOOP(name##_plain_loop, ONE, PLAIN) static void name(                   \
+		const void *table, const uint32_t *slot, size_t n, const float *const *in, void *const *out)           \
 	{                                                                                                              \
-		name##_loop(INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT]);                                  \
+		if (IS_PLAIN(table))                                                                                   \
+			name##_plain_loop(kind##_ARGS);                                                                \
+		else                                                                                                   \
+			name##_loop(kind##_ARGS);                                                                      \
 	}
 
-ROW_EVAL_F(eval_f_one, ONE)
-ROW_EVAL_PDF(eval_pdf_one, ONE)
-ROW_EVAL_F_PDF(eval_f_pdf_one, ONE)
-ROW_SAMPLE_ONE(sample_one)
-ROW_SAMPLE_WI(sample_wi_one, ONE)
-ROW_EVAL_F(eval_f_many, MANY)
-ROW_EVAL_PDF(eval_pdf_many, MANY)
-ROW_EVAL_F_PDF(eval_f_pdf_many, MANY)
-ROW_SAMPLE_MANY(sample_many)
-ROW_SAMPLE_WI(sample_wi_many, MANY)
+#define ROW_MANY(name, kind)                                                                                           \
+	kind##_LOOP(name##_loop, MANY, ) static void name(const void *table, const uint32_t *slot, size_t n,           \
+							  const float *const *in, void *const *out)                    \
+	{                                                                                                              \
+		name##_loop(kind##_ARGS);                                                                              \
+	}
+
+#define ROW_EVAL_ONE    ROW_ONE
+#define ROW_EVAL_MANY   ROW_MANY
+#define ROW_SAMPLE_ONE  ROW_ONE
+#define ROW_SAMPLE_MANY ROW_MANY
+
+ROW_EVAL_ONE(eval_f_one, EVAL_F)
+ROW_EVAL_ONE(eval_pdf_one, EVAL_PDF)
+ROW_EVAL_ONE(eval_f_pdf_one, EVAL_F_PDF)
+ROW_SAMPLE_ONE(sample_one, SAMPLE)
+ROW_SAMPLE_ONE(sample_wi_one, SAMPLE_WI)
+ROW_EVAL_MANY(eval_f_many, EVAL_F)
+ROW_EVAL_MANY(eval_pdf_many, EVAL_PDF)
+ROW_EVAL_MANY(eval_f_pdf_many, EVAL_F_PDF)
+ROW_SAMPLE_MANY(sample_many, SAMPLE)
+ROW_SAMPLE_MANY(sample_wi_many, SAMPLE_WI)
 
 const lobe_rows PASTE(PASTE(PASTE(lobe_rows_, LOBE_ROW_ISA), _), LOBE_ROW) = {
 #define LOBE_VERB(NAME, name) {name##_one, name##_many},

@@ -65,24 +65,13 @@ LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_unit(lobe_real c, lobe_rea
 	return f;
 }
 
-/* From cosine and s2 = |w x m|^2: m2 = c^2 + s2 and g^2 = eta^2 c^2 + k s2. */
-LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_at(lobe_fresnel_interface f, lobe_real c, lobe_real s2)
-{
-	f.c = c;
-	const lobe_real c2 = f.c * f.c;
-	f.g = lobe_fresnel_g(lobe_fma(f.k, s2, f.eta2 * c2));
-	f.x = lobe_fma(f.c, f.g, -s2);
-	f.m2 = c2 + s2;
-	return f;
-}
-
-/* From both cosines and m2. */
-LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_between(lobe_fresnel_interface f, lobe_real c, lobe_real g,
-							      lobe_real m2)
+/* At a normal. g^2 = eta^2 c^2 + k |w x m|^2 cancels nowhere but at the edge of total reflection. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_at(lobe_fresnel_interface f, lobe_real c, lobe_real g,
+							 lobe_real x, lobe_real m2)
 {
 	f.c = c;
 	f.g = g;
-	f.x = lobe_fma(c, c + g, -m2);
+	f.x = x;
 	f.m2 = m2;
 	return f;
 }
@@ -148,7 +137,8 @@ LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_fresnel_interface f = lobe_fresnel_interface_unit(c, eta);
 	const lobe_fresnel_amplitudes m = lobe_fresnel_amplitudes_make(f);
-	const int total = (f.g <= zero) & (f.k < zero);
+	/* One comparison: of two gcc makes a branch. */
+	const int total = f.g <= (f.k < zero ? zero : -one);
 	const lobe_real reflected = lobe_at_most(lobe_fresnel_reflectance(f, m), one);
 	const lobe_real transmitted = lobe_at_most(lobe_fresnel_transmittance(f, m), one);
 	const lobe_real through = f.k == zero ? one : transmitted;

@@ -54,13 +54,6 @@ LOBE_FN lobe_vec3 lobe_cross(lobe_vec3 a, lobe_vec3 b)
 			      lobe_diff_of_products(a.x, b.y, a.y, b.x));
 }
 
-/* The same with one rounding less of care: each component is off by 6e-8 |a| |b|. */
-LOBE_FN lobe_vec3 lobe_rough_cross(lobe_vec3 a, lobe_vec3 b)
-{
-	return lobe_vec3_make(lobe_fma(a.y, b.z, -(a.z * b.y)), lobe_fma(a.z, b.x, -(a.x * b.z)),
-			      lobe_fma(a.x, b.y, -(a.y * b.x)));
-}
-
 /* v/|v|. Domain: 1e-18 < |v| < 1e18, so that the square of the length neither underflows nor overflows. */
 LOBE_FN lobe_vec3 lobe_normalize(lobe_vec3 v) { return lobe_vec3_scale(v, LOBE_R(1.0) / lobe_sqrt(lobe_dot(v, v))); }
 

@@ -24,11 +24,12 @@
 #include "stretch.h"
 
 /* ndf: LOBE_NDF_*, a constant. stretch: widths along tangent and bitangent. eta: index below over index above the surface,
- * in [1/1000, 1000]; inv_eta is 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. */
+ * in [1/1000, 1000]; inv_eta is 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. dense: one of the
+ * indices is above twice the other, so that from within 1 - sin^2 is what is left of two numbers near 1. */
 typedef struct {
 	lobe_stretch stretch;
 	lobe_real eta, inv_eta;
-	lobe_uint transport, delta;
+	lobe_uint transport, delta, dense;
 } lobe_rough_dielectric;
 
 /* Clamps alpha_x and alpha_y to [LOBE_ALPHA_MIN, 1]. Carries radiance; see lobe_rough_dielectric_transport. */
@@ -40,6 +41,17 @@ LOBE_FN lobe_rough_dielectric lobe_rough_dielectric_make(lobe_real alpha_x, lobe
 	p.inv_eta = LOBE_R(1.0) / eta + (eta - eta); /* NaN for an infinite eta, not 0 */
 	p.transport = LOBE_TRANSPORT_RADIANCE;
 	p.delta = (lobe_uint)lobe_dielectric_is_delta(lobe_max(p.stretch.alpha_x, p.stretch.alpha_y), eta);
+	p.dense = (lobe_uint) !(lobe_max(eta, p.inv_eta) <= LOBE_R(2.0));
+	return p;
+}
+
+/* Most glass is neither delta nor dense: loops over one material leave out what only the rest needs (src/rows.c). */
+LOBE_FN int lobe_rough_dielectric_is_plain(lobe_rough_dielectric p) { return (p.delta | p.dense) == 0u; }
+
+/* One that is, as the compiler is to see it. */
+LOBE_FN lobe_rough_dielectric lobe_rough_dielectric_plain(lobe_rough_dielectric p)
+{
+	p.delta = p.dense = 0u;
 	return p;
 }
 
@@ -58,10 +70,11 @@ LOBE_FN lobe_real lobe_rough_dielectric_t(lobe_uint ndf, lobe_rough_dielectric p
 /* The interface seen from one side. at: without an angle yet; its eta is the far index over the near one, e. scale: of what
  * refraction carries. A refracted direction is -1/e times w + bend m, of which the length is off by a rounding of the cosine
  * over e, 1e-4 at most. Where e < 1 a step of Newton's method takes that off again: its length becomes 1 when it is
- * multiplied by step |w + bend m|^2 + start, which is -1/e else, so that at e = 1 exactly -w is left. */
+ * multiplied by step |w + bend m|^2 + start, which is -1/e else, so that at e = 1 exactly -w is left. g2_first and g2_second
+ * add up to k; where that is near -1, without the rounding that would be one of e. */
 typedef struct {
 	lobe_fresnel_interface at;
-	lobe_real inv_e, scale, step, start;
+	lobe_real inv_e, scale, step, start, g2_first, g2_second;
 } lobe_rough_dielectric_side;
 
 LOBE_FN lobe_rough_dielectric_side lobe_rough_dielectric_side_make(lobe_real e, lobe_real inv_e, lobe_uint transport)
@@ -74,6 +87,8 @@ LOBE_FN lobe_rough_dielectric_side lobe_rough_dielectric_side_make(lobe_real e, 
 	s.scale = transport == LOBE_TRANSPORT_RADIANCE ? inv_e2 : one;
 	s.step = e < one ? LOBE_R(0.5) * inv_e2 * inv_e : zero;
 	s.start = (e < one ? LOBE_R(-1.5) : -one) * inv_e;
+	s.g2_first = s.at.eta2 < LOBE_R(0.5) ? -one : s.at.k;
+	s.g2_second = s.at.eta2 < LOBE_R(0.5) ? s.at.eta2 : zero;
 	return s;
 }
 
@@ -97,6 +112,8 @@ LOBE_FN lobe_rough_dielectric_view lobe_rough_dielectric_view_make(lobe_uint ndf
 	v.side.scale = above ? a.scale : b.scale;
 	v.side.step = above ? a.step : b.step;
 	v.side.start = above ? a.start : b.start;
+	v.side.g2_first = above ? a.g2_first : b.g2_first;
+	v.side.g2_second = above ? a.g2_second : b.g2_second;
 	return v;
 }
 
@@ -122,19 +139,28 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_make(lobe_uint n
 	const lobe_vec3 squares = lobe_vec3_squares(h);
 	const lobe_real h2 = lobe_vec3_sum(squares);
 	const lobe_real half_h2 = LOBE_R(0.5) * h2;
-	/* The facet looks up. Of a refraction the half vector knows both cosines; of a reflection g^2 = (o.H)^2 + k h2. */
+	/* The facet looks up. Of a refraction the half vector knows both cosines. Of a reflection h2 gives all: c = h2/2,
+	 * s^2 = h2 (1 - h2/4) >= 0 and g^2 = c^2 + k h2; of dense glass from these, so that a rounding of h2 is one of the angle
+	 * and no more. */
+	const lobe_real at_most_4 = lobe_min(h2, LOBE_R(4.0));
+	const lobe_real minus_s2 = lobe_fma(LOBE_R(0.25), at_most_4, -one);
+	const lobe_real dense_g2 = lobe_fma(LOBE_R(0.25), at_most_4, v.side.g2_first) + v.side.g2_second;
+	const lobe_real plain_g2 = lobe_fma(LOBE_R(0.25), h2, v.side.at.k);
+	const lobe_real reflects_g = lobe_fresnel_g(h2 * (p.dense != 0u ? dense_g2 : plain_g2));
 	const lobe_real refracts_oh = lobe_times_sign(lobe_dot(v.o, h), h.z);
 	const lobe_real refracts_g = lobe_times_sign(v.side.at.eta * -lobe_dot(i, h), h.z);
-	const lobe_real reflects_g = lobe_fresnel_g(h2 * lobe_fma(LOBE_R(0.25), h2, v.side.at.k));
 	const lobe_real oh = reflects ? half_h2 : refracts_oh;
 	const lobe_real e2_ih = reflects ? half_h2 : v.side.at.eta * refracts_g;
 	const lobe_real g = reflects ? reflects_g : refracts_g;
+	const lobe_real dense_x = half_h2 * (g + (minus_s2 + minus_s2));
+	const lobe_real plain_x = lobe_fma(oh, oh + g, -h2);
+	const lobe_real x = p.dense != 0u ? dense_x : plain_x;
 	const lobe_real two_sigma = v.o.z + v.t_o;
 	const lobe_facet_density d =
 		lobe_ndf_density_over(ndf, lobe_stretch_facet_squares(p.stretch, squares), two_sigma);
 	lobe_rough_dielectric_facet f;
 	f.reflects = reflects;
-	f.at = lobe_fresnel_interface_between(v.side.at, oh, g, h2);
+	f.at = lobe_fresnel_interface_at(v.side.at, oh, g, x, h2);
 	f.side = reflects ? i.z : -i.z;
 	f.seen = lobe_min(oh, e2_ih);
 	f.density = ((p.stretch.norm + p.stretch.norm) * two_sigma) * (oh * d.inv) * (e2_ih * d.inv) * d.factor;
@@ -154,8 +180,9 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_of(lobe_uint ndf
 /* x where m is a facet and x a finite number, else 0. */
 LOBE_FN lobe_real lobe_rough_dielectric_keep(lobe_rough_dielectric_view v, lobe_rough_dielectric_facet m, lobe_real x)
 {
-	const int keep = (lobe_min(lobe_min(v.o.z, m.side), m.seen) > LOBE_R(0.0)) & (lobe_abs(x) <= LOBE_REAL_MAX);
-	return keep ? x : LOBE_R(0.0);
+	const int there = lobe_min(lobe_min(v.o.z, m.side), m.seen) > LOBE_R(0.0);
+	const int number = lobe_abs(x) <= LOBE_REAL_MAX;
+	return there & number ? x : LOBE_R(0.0);
 }
 
 /* F or 1 - F, by the event. */
@@ -233,8 +260,10 @@ LOBE_FN lobe_rough_dielectric_choice lobe_rough_dielectric_choose(lobe_uint ndf,
 	s.m = lobe_stretch_normal(p.stretch, facet);
 	s.c = lobe_dot(v.o, s.m);
 	/* Not m2 - c^2: towards the thinner side it is the sine that decides, and it may be small. */
-	const lobe_vec3 across = lobe_rough_cross(v.o, s.m);
-	s.at = lobe_fresnel_interface_at(v.side.at, s.c, lobe_dot(across, across));
+	const lobe_vec3 across = lobe_vec3_fma(-s.c, v.o, s.m);
+	const lobe_real s2 = lobe_dot(across, across);
+	const lobe_real g = lobe_fresnel_g(lobe_fma(v.side.at.eta2, s.c * s.c, v.side.at.k * s2));
+	s.at = lobe_fresnel_interface_at(v.side.at, s.c, g, lobe_fma(s.c, g, -s2), lobe_dot(s.m, s.m));
 	s.r = lobe_fresnel_amplitudes_make(s.at);
 	return s;
 }
