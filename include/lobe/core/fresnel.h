@@ -111,6 +111,12 @@ LOBE_FN lobe_real lobe_fresnel_reflectance(lobe_fresnel_interface f, lobe_fresne
 	return lobe_fresnel_part(r, r.bend, LOBE_R(0.5) * r.bend, f.m2, f.x);
 }
 
+/* Whether a number below 1 is below F. */
+LOBE_FN int lobe_fresnel_reflects(lobe_fresnel_interface f, lobe_fresnel_amplitudes r, lobe_real u)
+{
+	return u + u < lobe_fresnel_part(r, r.bend, r.bend, f.m2, f.x);
+}
+
 LOBE_FN lobe_real lobe_fresnel_transmittance(lobe_fresnel_interface f, lobe_fresnel_amplitudes r)
 {
 	return lobe_fresnel_part(r, f.c, f.g + f.g, LOBE_R(1.0), f.eta);
