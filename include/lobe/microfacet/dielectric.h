@@ -69,8 +69,8 @@ LOBE_FN lobe_real lobe_rough_dielectric_t(lobe_uint ndf, lobe_rough_dielectric p
 
 /* The interface seen from one side. at: without an angle yet; its eta is the far index over the near one, e. scale: of what
  * refraction carries. A refracted direction is -1/e times w + bend m, of which the length is off by a rounding of the cosine
- * over e, 1e-4 at most. Of dense glass, where e < 1, a step of Newton's method takes that off again: its length becomes 1
- * when it is multiplied by step |w + bend m|^2 + start, which is -1/e else. g2_first and g2_second
+ * over e, 1e-4 at most, and by what |w|^2 is not 1. Where e < 1 a step of Newton's method takes that off again: its length
+ * becomes 1 when it is multiplied by step |w + bend m|^2 + start, which is -1/e else, so that at e = 1 exactly -w is left. g2_first and g2_second
  * add up to k; where that is near -1, without the rounding that would be one of e. */
 typedef struct {
 	lobe_fresnel_interface at;
@@ -270,12 +270,11 @@ LOBE_FN lobe_rough_dielectric_choice lobe_rough_dielectric_choose(lobe_uint ndf,
 
 /* Where the light goes, with wo above: 2 (o.m) m - o or refracted. (The length of what is refracted is worked out before it
  * is known whether it is: a sample is one long chain of operations that wait for each other.) */
-LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric p, lobe_rough_dielectric_view v,
-					      lobe_rough_dielectric_choice s, int reflects)
+LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric_view v, lobe_rough_dielectric_choice s,
+					      int reflects)
 {
 	const lobe_vec3 bent = lobe_vec3_fma(s.r.bend, s.m, v.o);
-	const lobe_real dense_scale = lobe_fma(v.side.step, lobe_dot(bent, bent), v.side.start);
-	const lobe_real refracts_scale = p.dense != 0u ? dense_scale : -v.side.inv_e;
+	const lobe_real refracts_scale = lobe_fma(v.side.step, lobe_dot(bent, bent), v.side.start);
 	const lobe_real of_m = reflects ? (s.c + s.c) / -s.at.m2 : s.r.bend;
 	const lobe_real scale = reflects ? LOBE_R(-1.0) : refracts_scale;
 	return lobe_vec3_scale(lobe_vec3_fma(of_m, s.m, v.o), scale);
@@ -319,7 +318,7 @@ LOBE_FN lobe_sample lobe_rough_dielectric_sample(lobe_uint ndf, lobe_rough_diele
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p, wo);
 	const lobe_rough_dielectric_choice s = lobe_rough_dielectric_choose(ndf, p, v, u);
 	const int reflects = lobe_fresnel_reflects(s.at, s.r, u.z);
-	const lobe_vec3 i = lobe_rough_dielectric_leave(p, v, s, reflects);
+	const lobe_vec3 i = lobe_rough_dielectric_leave(v, s, reflects);
 	/* Without an interface the probability to pass is 1, not 1 - F with its roundings. */
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_real surely = p.eta == one ? one : zero, perhaps = p.eta == one ? zero : one;
