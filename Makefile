@@ -45,7 +45,7 @@ ROW_CFLAGS := $(LIB_CFLAGS) $(if $(filter -g%,$(CFLAGS)),-g1) $(ROW_OPT) $(forea
 	-fweb --param=sched-pressure-algorithm=2,\
 	$(shell $(CC) -Werror $(f) -E -x c /dev/null >/dev/null 2>&1 && echo $(f)))
 
-# Their order for this processor: 2 to 8 % for the longest chains, nothing or less for others (bench/throughput).
+# The order of instructions that suits processors with AVX-512, where it was seen to help (build/bench/throughput).
 TUNE_avx512_ggx_dielectric := -mtune=icelake-server
 TUNE_avx512_beckmann_dielectric := -mtune=icelake-server
 

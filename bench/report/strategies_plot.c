@@ -52,8 +52,8 @@ void strategies_write_maps(report_page *page, const rank_map *m)
 	static const char *const said[2][MEASURES] = {
 		{"What wins, a direction costing the same whatever it was drawn from (both: two).",
 		 "What wins in equal time of shading alone, by the scalar functions."},
-		{"The best of the strategies that sample the lobe alone, for the same number of samples.",
-		 "The best of the strategies that sample the lobe alone, in equal time of shading alone."}};
+		{"The best of the strategies that do not know the light, for the same number of samples.",
+		 "The best of the strategies that do not know the light, in equal time of shading alone."}};
 	char file[64], definitions[512];
 	write_names(m);
 	for (int lobe = 0; lobe < 2; lobe++)

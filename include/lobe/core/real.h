@@ -1,8 +1,10 @@
 /* real.h - elementary functions with the same bits on every backend.
  *
  * lobe_sincos_2pi lobe_sin lobe_cos lobe_tan lobe_asin lobe_acos lobe_atan lobe_atan2   trig.h
- * lobe_exp lobe_exp2 lobe_log lobe_log2 lobe_pow lobe_exp_normal lobe_log_rough         explog.h
+ * lobe_exp lobe_exp2 lobe_log lobe_log2 lobe_pow                                        explog.h
  * lobe_erf lobe_erfcx lobe_ierfcx lobe_erfinv                                           erf.h
+ *
+ * Where more is known of the argument: lobe_sincos_2pi_small, lobe_exp_normal, lobe_log_normal, lobe_log_rough.
  *
  * In single precision each is a few polynomials without a branch, a loop, a table or a call into libm, so that a row
  * loop over them vectorises. What could be ill defined is selected away before it happens: no float leaves the range of
