@@ -52,6 +52,9 @@ typedef struct {
 	double nudge;
 } stability_question;
 
+/* Mirrors and smooth interfaces, which have no eval. */
+int stability_is_delta_only(lobe_uint kind);
+
 /* 1: the textbook (stability_textbook.h) has the lobe with these parameters; 0: only the double build does. */
 int stability_is_textbook(const stability_case *c);
 
@@ -67,6 +70,9 @@ typedef enum {
 	/* The value is the exact answer to inputs that are off by at most two ulps each: the answer bends too much over a
 	 * rounding for the floor, which is made of its differences along one input at a time. */
 	STABILITY_BENT,
+	/* Directions are up to four ulp off unit, and the value is between what formulas make of them as they are and as unit
+	 * ones, to 16 floors. */
+	STABILITY_LENGTH,
 	/* The rest is within 16 of what a rounding of something that is of the size of 1 does, which stability_of_one finds by
 	 * asking the reference again. The reflectance of a metal (core/fresnel.h promises it so) ... */
 	STABILITY_METAL,

@@ -1,5 +1,6 @@
-/* stability_cases.c - corners of every lobe's domain, drawn from counters. */
+/* stability_cases.c - corners of every lobe's domain, drawn from counters, and what such a case consists of. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cases_make.h"
@@ -259,4 +260,78 @@ stability_case stability_draw(lobe_uint kind, uint64_t n)
 	stability_draw_parameters(kind, n, c.parameter);
 	stability_draw_directions(&c, n);
 	return c;
+}
+
+/* --- a case's inputs, as places and as text -------------------------------------------------------------------------- */
+
+size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS])
+{
+	const int ch = c->channel;
+	const int rough[] = {0, 1, 2 + ch, 5 + ch}, glass[] = {0, 1, 2}, colour[] = {ch}, metal[] = {ch, 3 + ch},
+		  index[] = {0};
+	const int film_metal[] = {0, 1, 2, 3, 4 + ch, 7 + ch}, film_glass[] = {0, 1, 2, 3, 4};
+	const int any_metal[] = {0, 1, 11, 12, 13, 14, 2 + ch, 5 + ch}, any_glass[] = {0, 1, 11, 12, 13, 14, 2};
+	const int diffuse[] = {0, 1, 11, 12, 13, 14, 2 + ch};
+	const int *list = index;
+	size_t length = 1;
+#define LIST(name) list = name, length = sizeof name / sizeof *name
+	switch (c->kind) {
+	case LOBE_KIND_LAMBERT:
+	case LOBE_KIND_MIRROR:
+		LIST(colour);
+		break;
+	case LOBE_KIND_GGX_CONDUCTOR:
+	case LOBE_KIND_BECKMANN_CONDUCTOR:
+	case LOBE_KIND_GGX_SCHLICK:
+		LIST(rough);
+		break;
+	case LOBE_KIND_GGX_DIELECTRIC:
+	case LOBE_KIND_BECKMANN_DIELECTRIC:
+		LIST(glass);
+		break;
+	case LOBE_KIND_SMOOTH_CONDUCTOR:
+		LIST(metal);
+		break;
+	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
+		LIST(film_metal);
+		break;
+	case LOBE_KIND_IRIDESCENT_DIELECTRIC:
+		LIST(film_glass);
+		break;
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
+		LIST(any_metal);
+		break;
+	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		LIST(any_glass);
+		break;
+	case LOBE_KIND_MICROFACET_DIFFUSE:
+		LIST(diffuse);
+		break;
+	default:
+		break;
+	}
+#undef LIST
+	for (size_t k = 0; k < length; k++)
+		at[k] = list[k];
+	return length;
+}
+
+void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size)
+{
+	int at[CASE_PARAMETERS];
+	const size_t n = stability_parameters_of(c, at);
+	const int samples = verb >= STABILITY_WEIGHT || stability_is_delta_only(c->kind);
+	const float *second = samples ? c->u : c->wi;
+	size_t used = (size_t)snprintf(text, size, "wo %a %a %a %s %a %a %a", (double)c->wo[0], (double)c->wo[1],
+				       (double)c->wo[2], samples ? "u" : "wi", (double)second[0], (double)second[1],
+				       (double)second[2]);
+	for (size_t k = 0; k < n && used < size; k++)
+		used += (size_t)snprintf(text + used, size - used, " p%d %a", at[k], c->parameter[at[k]]);
+	/* What a comparison lobe is made of, and which way light is counted. */
+	if (c->kind >= LOBE_KIND_MICROFACET_CONDUCTOR && used < size)
+		used += (size_t)snprintf(text + used, size - used, " ndf %g masking %g joint %g across %g strategy %g",
+					 c->parameter[8], c->parameter[15], c->parameter[16], c->parameter[17],
+					 c->parameter[18]);
+	if (used < size)
+		snprintf(text + used, size - used, " channel %d", c->channel);
 }

@@ -71,8 +71,8 @@ static void write_row(report_page *page, const char *name, const char *verb, con
 		      const stability_tally *s)
 {
 	const double n = s->compared ? (double)s->compared : 1.0;
-	const unsigned long other =
-		s->classes[STABILITY_UNDETERMINED] + s->classes[STABILITY_TINY] + s->classes[STABILITY_BENT];
+	const unsigned long other = s->classes[STABILITY_UNDETERMINED] + s->classes[STABILITY_TINY] +
+				    s->classes[STABILITY_BENT] + s->classes[STABILITY_LENGTH];
 	report_text(page, "| %s | %s | %s | %lu | %.2g | %.3g | %.3g %% | %lu | %lu | %lu | %.3g | %.3g | %.1e |\n",
 		    name, verb, reference, s->compared, stability_percentile(s->bins, 0.5),
 		    stability_percentile(s->bins, 0.9999), 100.0 * (double)s->above / n, other,
@@ -88,6 +88,7 @@ static const char *const meanings[STABILITY_CLASSES] = {
 	"below 1e-30 of the density's peak, where factors underflow; the error is as small",
 	"the value is the exact answer to inputs off by at most 2 ulp each; it bends too much over a rounding for the "
 	"floor",
+	"directions are up to 4 ulp off unit: the value is between the exact answers to them as they are and to unit ones",
 	"a metal's reflectance, of one (`core/fresnel.h`)",
 	"Schlick's curve where it falls to f90 < f0, of one (`core/fresnel_schlick.h`)",
 	"waves in a film that cancel, of one in units of 2^-22 for each time that they go to and fro (`core/airy.h`)",
@@ -172,7 +173,7 @@ void stability_write_errors(report_page *page, const report_table *t)
 		"*direction*: a component of what a sample returns, against the sampler's map of u; a u counts as the "
 		"cell of "
 		"2^-24 that it is.\n\n"
-		"Cases above %d floors are counted as undetermined, tiny or bent (*other*), as *of one*, or as *none* "
+		"Cases above %d floors are counted as undetermined, tiny, bent or of length (*other*), as *of one*, or as *none* "
 		"of these; the table below this one says which. Undetermined and tiny cases count as 0 in the "
 		"percentiles.\n\n"
 		"| lobe | result | reference | compared | median | 99.99 %% | above %d | other | of one | none | 99.99 "

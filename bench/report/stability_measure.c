@@ -1,7 +1,6 @@
 /* stability_measure.c - one case: the library's result beside the exact one and beside what the inputs allow. */
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "stability_of_one.h"
@@ -19,12 +18,12 @@ const char *const stability_lobe_names[STABILITY_LOBES] = {
 #undef LOBE_X
 };
 const char *const stability_class_names[STABILITY_CLASSES] = {
-	"plain",        "undetermined", "tiny",   "bent", "metal",  "falling Schlick",
-	"interference", "interface",    "cosine", "rim",  "facets", "logarithm"};
+	"plain",     "undetermined", "tiny", "bent",   "length",   "metal", "falling Schlick", "interference",
+	"interface", "cosine",       "rim",  "facets", "logarithm"};
 
 static lobe_vec3 vec3(const float w[3]) { return lobe_vec3_make(w[0], w[1], w[2]); }
 
-static int is_delta_only(lobe_uint kind)
+int stability_is_delta_only(lobe_uint kind)
 {
 	return kind == LOBE_KIND_MIRROR || kind == LOBE_KIND_SMOOTH_CONDUCTOR || kind == LOBE_KIND_SMOOTH_DIELECTRIC ||
 	       kind == LOBE_KIND_THIN_DIELECTRIC;
@@ -68,7 +67,7 @@ static double channel_of(lobe_rgb f, int channel) { return (double)(channel == 0
 double stability_library(const stability_case *c, stability_verb verb)
 {
 	const lobe_bsdf b = stability_bsdf(c);
-	if (verb >= STABILITY_WEIGHT || (verb == STABILITY_PDF && is_delta_only(c->kind))) {
+	if (verb >= STABILITY_WEIGHT || (verb == STABILITY_PDF && stability_is_delta_only(c->kind))) {
 		const lobe_sample s = lobe_bsdf_sample(b, vec3(c->wo), vec3(c->u));
 		if (verb == STABILITY_DIRECTION)
 			return (double)(c->channel == 0 ? s.wi.x : c->channel == 1 ? s.wi.y : s.wi.z);
@@ -78,65 +77,13 @@ double stability_library(const stability_case *c, stability_verb verb)
 				     : channel_of(lobe_bsdf_eval(b, vec3(c->wo), vec3(c->wi)), c->channel);
 }
 
-size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS])
-{
-	const int ch = c->channel;
-	const int rough[] = {0, 1, 2 + ch, 5 + ch}, glass[] = {0, 1, 2}, colour[] = {ch}, metal[] = {ch, 3 + ch},
-		  index[] = {0};
-	const int film_metal[] = {0, 1, 2, 3, 4 + ch, 7 + ch}, film_glass[] = {0, 1, 2, 3, 4};
-	const int any_metal[] = {0, 1, 11, 12, 13, 14, 2 + ch, 5 + ch}, any_glass[] = {0, 1, 11, 12, 13, 14, 2};
-	const int diffuse[] = {0, 1, 11, 12, 13, 14, 2 + ch};
-	const int *list = index;
-	size_t length = 1;
-#define LIST(name) list = name, length = sizeof name / sizeof *name
-	switch (c->kind) {
-	case LOBE_KIND_LAMBERT:
-	case LOBE_KIND_MIRROR:
-		LIST(colour);
-		break;
-	case LOBE_KIND_GGX_CONDUCTOR:
-	case LOBE_KIND_BECKMANN_CONDUCTOR:
-	case LOBE_KIND_GGX_SCHLICK:
-		LIST(rough);
-		break;
-	case LOBE_KIND_GGX_DIELECTRIC:
-	case LOBE_KIND_BECKMANN_DIELECTRIC:
-		LIST(glass);
-		break;
-	case LOBE_KIND_SMOOTH_CONDUCTOR:
-		LIST(metal);
-		break;
-	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
-		LIST(film_metal);
-		break;
-	case LOBE_KIND_IRIDESCENT_DIELECTRIC:
-		LIST(film_glass);
-		break;
-	case LOBE_KIND_MICROFACET_CONDUCTOR:
-		LIST(any_metal);
-		break;
-	case LOBE_KIND_MICROFACET_DIELECTRIC:
-		LIST(any_glass);
-		break;
-	case LOBE_KIND_MICROFACET_DIFFUSE:
-		LIST(diffuse);
-		break;
-	default:
-		break;
-	}
-#undef LIST
-	for (size_t k = 0; k < length; k++)
-		at[k] = list[k];
-	return length;
-}
-
 /* The places in x of what c's answer depends on continuously: of a delta lobe wo alone. */
 static size_t inputs_of(const stability_case *c, stability_verb verb, int at[STABILITY_INPUTS])
 {
 	int parameters[CASE_PARAMETERS];
 	const size_t length = stability_parameters_of(c, parameters);
 	size_t n = 0;
-	for (int k = 0; k < (is_delta_only(c->kind) ? 3 : verb == STABILITY_DIRECTION ? 5 : 6); k++)
+	for (int k = 0; k < (stability_is_delta_only(c->kind) ? 3 : verb == STABILITY_DIRECTION ? 5 : 6); k++)
 		at[n++] = k;
 	for (size_t k = 0; k < length; k++)
 		at[n++] = 6 + parameters[k];
@@ -186,7 +133,7 @@ static int is_invisible(const stability_case *c, const lobe_bsdf *b, const float
 static int has_direction(lobe_uint kind)
 {
 	return kind == LOBE_KIND_LAMBERT || kind == LOBE_KIND_GGX_CONDUCTOR || kind == LOBE_KIND_GGX_SCHLICK ||
-	       kind == LOBE_KIND_GGX_DIELECTRIC || is_delta_only(kind);
+	       kind == LOBE_KIND_GGX_DIELECTRIC || stability_is_delta_only(kind);
 }
 
 /* The question of a case, and its inputs; 0 where there is none. */
@@ -200,10 +147,10 @@ static int ask(const stability_case *c, stability_verb verb, stability_question 
 	q->verb = verb;
 	q->channel = c->channel;
 	q->delta = refraction_is_delta(&b);
-	if ((verb == STABILITY_EVAL && is_delta_only(c->kind)) ||
+	if ((verb == STABILITY_EVAL && stability_is_delta_only(c->kind)) ||
 	    (verb == STABILITY_DIRECTION && !has_direction(c->kind)))
 		return 0;
-	if (verb >= STABILITY_WEIGHT || is_delta_only(c->kind)) {
+	if (verb >= STABILITY_WEIGHT || stability_is_delta_only(c->kind)) {
 		const lobe_sample s = lobe_bsdf_sample(b, vec3(c->wo), vec3(c->u));
 		if (s.event == 0u)
 			return 0;
@@ -363,6 +310,36 @@ static int is_bent(const stability_case *c, stability_verb verb, double value)
 	return above && below;
 }
 
+/* Directions are up to four ulp off unit. The textbook takes them as they are: whether the value is within the limit of what
+ * lies between its answers to them, to wo, wi or both made unit, and to the cosine that wo would have if it were. */
+static int is_length(const stability_case *c, stability_verb verb, const stability_result *r)
+{
+	enum { WO_UNIT = 1, WI_UNIT = 2, COSINE_UNIT = 4, READINGS = 8 };
+	stability_question q;
+	long double x[STABILITY_INPUTS], y[STABILITY_INPUTS];
+	long double low = (long double)r->exact, high = low;
+	if (!ask(c, verb, &q, x) || !stability_is_textbook(c))
+		return 0;
+	for (int reading = 1; reading < READINGS; reading++) {
+		long double length[2];
+		if (verb == STABILITY_DIRECTION && reading != WO_UNIT) /* a u has no length, a map no cosine */
+			continue;
+		memcpy(y, x, sizeof y);
+		for (int w = 0; w < 2; w++) {
+			long double *d = y + 3 * w;
+			length[w] = sqrtl(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+			for (int k = 0; k < 3 && (reading & (w ? WI_UNIT : WO_UNIT)); k++)
+				d[k] /= length[w];
+		}
+		q.nudge = reading & COSINE_UNIT ? (double)(1.0L - length[0]) : 0.0;
+		const long double answer = stability_exacter(q, y);
+		low = fminl(low, answer);
+		high = fmaxl(high, answer);
+	}
+	const long double room = STABILITY_LIMIT * (long double)r->floor_of_one;
+	return (long double)r->value >= low - room && (long double)r->value <= high + room;
+}
+
 stability_class stability_explain(const stability_case *c, stability_verb verb, const stability_result *r)
 {
 	if (!r->defined || r->error <= STABILITY_LIMIT * r->floor)
@@ -375,25 +352,7 @@ stability_class stability_explain(const stability_case *c, stability_verb verb, 
 		return r->of_one;
 	if (verb == STABILITY_WEIGHT && facet_is_undetermined(c))
 		return STABILITY_UNDETERMINED;
+	if (is_length(c, verb, r))
+		return STABILITY_LENGTH;
 	return verb != STABILITY_DIRECTION && is_bent(c, verb, r->value) ? STABILITY_BENT : STABILITY_PLAIN;
-}
-
-void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size)
-{
-	int at[CASE_PARAMETERS];
-	const size_t n = stability_parameters_of(c, at);
-	const int samples = verb >= STABILITY_WEIGHT || is_delta_only(c->kind);
-	const float *second = samples ? c->u : c->wi;
-	size_t used = (size_t)snprintf(text, size, "wo %a %a %a %s %a %a %a", (double)c->wo[0], (double)c->wo[1],
-				       (double)c->wo[2], samples ? "u" : "wi", (double)second[0], (double)second[1],
-				       (double)second[2]);
-	for (size_t k = 0; k < n && used < size; k++)
-		used += (size_t)snprintf(text + used, size - used, " p%d %a", at[k], c->parameter[at[k]]);
-	/* What a comparison lobe is made of, and which way light is counted. */
-	if (c->kind >= LOBE_KIND_MICROFACET_CONDUCTOR && used < size)
-		used += (size_t)snprintf(text + used, size - used, " ndf %g masking %g joint %g across %g strategy %g",
-					 c->parameter[8], c->parameter[15], c->parameter[16], c->parameter[17],
-					 c->parameter[18]);
-	if (used < size)
-		snprintf(text + used, size - used, " channel %d", c->channel);
 }

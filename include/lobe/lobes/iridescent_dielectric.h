@@ -108,7 +108,7 @@ LOBE_FN lobe_sample lobe_iridescent_dielectric_sample(lobe_iridescent_dielectric
 	const lobe_rough_dielectric_choice s = lobe_rough_dielectric_choose(ndf, p.glass, v, u);
 	const lobe_film_fresnel f = lobe_iridescent_dielectric_film(p, v, s.at);
 	const int reflects = u.z < f.mean_reflectance;
-	const lobe_vec3 i = lobe_rough_dielectric_leave(v, s, reflects);
+	const lobe_vec3 i = lobe_rough_dielectric_leave(p.glass, v, s, reflects);
 	const lobe_rough_dielectric_facet m =
 		lobe_rough_dielectric_facet_again(ndf, p.glass, v, s, i, reflects, LOBE_R(1.0));
 	const lobe_iridescent_share share = lobe_iridescent_dielectric_share(p, v, m);

@@ -68,10 +68,11 @@ LOBE_FN lobe_real lobe_rough_dielectric_t(lobe_uint ndf, lobe_rough_dielectric p
 }
 
 /* The interface seen from one side. at: without an angle yet; its eta is the far index over the near one, e. scale: of what
- * refraction carries. A refracted direction is -1/e times w + bend m, of which the length is off by a rounding of the cosine
- * over e, 1e-4 at most, and by what |w|^2 is not 1. Where e < 1 a step of Newton's method takes that off again: its length
- * becomes 1 when it is multiplied by step |w + bend m|^2 + start, which is -1/e else, so that at e = 1 exactly -w is left. g2_first and g2_second
- * add up to k; where that is near -1, without the rounding that would be one of e. */
+ * refraction carries. A refracted direction is -1/e times w + bend m, whose squared length is e^2 and what |w|^2 is above 1,
+ * w being a few ulp off. Where e < 1, which makes more of that, a step of Newton's method takes it off again: 1/e less step
+ * times that excess. From within dense glass roundings count as well, up to 1e-4 where e is 1/1000, and the length itself is
+ * taken: step |w + bend m|^2 + start. At e = 1 exactly -w is left. g2_first and g2_second add up to k; where that is near -1,
+ * without the rounding that would be one of e. */
 typedef struct {
 	lobe_fresnel_interface at;
 	lobe_real inv_e, scale, step, start, g2_first, g2_second;
@@ -139,28 +140,30 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_make(lobe_uint n
 	const lobe_vec3 squares = lobe_vec3_squares(h);
 	const lobe_real h2 = lobe_vec3_sum(squares);
 	const lobe_real half_h2 = LOBE_R(0.5) * h2;
-	/* The facet looks up. Of a refraction the half vector knows both cosines. Of a reflection h2 gives all: c = h2/2,
-	 * s^2 = h2 (1 - h2/4) >= 0 and g^2 = c^2 + k h2; of dense glass from these, so that a rounding of h2 is one of the angle
-	 * and no more. */
-	const lobe_real at_most_4 = lobe_min(h2, LOBE_R(4.0));
-	const lobe_real minus_s2 = lobe_fma(LOBE_R(0.25), at_most_4, -one);
-	const lobe_real dense_g2 = lobe_fma(LOBE_R(0.25), at_most_4, v.side.g2_first) + v.side.g2_second;
-	const lobe_real plain_g2 = lobe_fma(LOBE_R(0.25), h2, v.side.at.k);
-	const lobe_real reflects_g = lobe_fresnel_g(h2 * (p.dense != 0u ? dense_g2 : plain_g2));
+	/* The facet looks up. Of a refraction the half vector knows both cosines. Of a reflection its length gives all:
+	 * c = m2/2, s^2 = m2 (1 - m2/4) and g^2 = c^2 + k m2; of dense glass from these, so that a rounding of m2 is one of the
+	 * angle and no more, and s^2 >= 0. */
+	const lobe_real m2 = p.dense != 0u ? lobe_min(h2, LOBE_R(4.0)) : h2;
+	const lobe_real half_m2 = LOBE_R(0.5) * m2;
+	const lobe_real minus_s2 = lobe_fma(LOBE_R(0.25), m2, -one);
+	const lobe_real dense_g2 = lobe_fma(LOBE_R(0.25), m2, v.side.g2_first) + v.side.g2_second;
+	const lobe_real plain_g2 = lobe_fma(LOBE_R(0.25), m2, v.side.at.k);
+	const lobe_real reflects_g = lobe_fresnel_g(m2 * (p.dense != 0u ? dense_g2 : plain_g2));
 	const lobe_real refracts_oh = lobe_times_sign(lobe_dot(v.o, h), h.z);
 	const lobe_real refracts_g = lobe_times_sign(v.side.at.eta * -lobe_dot(i, h), h.z);
+	const lobe_real c = reflects ? half_m2 : refracts_oh;
 	const lobe_real oh = reflects ? half_h2 : refracts_oh;
 	const lobe_real e2_ih = reflects ? half_h2 : v.side.at.eta * refracts_g;
 	const lobe_real g = reflects ? reflects_g : refracts_g;
-	const lobe_real dense_x = half_h2 * (g + (minus_s2 + minus_s2));
-	const lobe_real plain_x = lobe_fma(oh, oh + g, -h2);
+	const lobe_real dense_x = half_m2 * (g + (minus_s2 + minus_s2));
+	const lobe_real plain_x = lobe_fma(c, c + g, -m2);
 	const lobe_real x = p.dense != 0u ? dense_x : plain_x;
 	const lobe_real two_sigma = v.o.z + v.t_o;
 	const lobe_facet_density d =
 		lobe_ndf_density_over(ndf, lobe_stretch_facet_squares(p.stretch, squares), two_sigma);
 	lobe_rough_dielectric_facet f;
 	f.reflects = reflects;
-	f.at = lobe_fresnel_interface_at(v.side.at, oh, g, x, h2);
+	f.at = lobe_fresnel_interface_at(v.side.at, c, g, x, reflects ? m2 : h2);
 	f.side = reflects ? i.z : -i.z;
 	f.seen = lobe_min(oh, e2_ih);
 	f.density = ((p.stretch.norm + p.stretch.norm) * two_sigma) * (oh * d.inv) * (e2_ih * d.inv) * d.factor;
@@ -254,30 +257,35 @@ typedef struct {
 LOBE_FN lobe_rough_dielectric_choice lobe_rough_dielectric_choose(lobe_uint ndf, lobe_rough_dielectric p,
 								  lobe_rough_dielectric_view v, lobe_vec3 u)
 {
-	const lobe_vec3 facet =
-		lobe_ndf_visible_above(ndf, lobe_stretch_direction(p.stretch, v.o), v.t_o, lobe_vec2_make(u.x, u.y));
+	const lobe_vec3 stretched = lobe_stretch_direction(p.stretch, v.o);
+	const lobe_vec3 facet = lobe_ndf_visible_above(ndf, stretched, v.t_o, lobe_vec2_make(u.x, u.y));
 	lobe_rough_dielectric_choice s;
 	s.m = lobe_stretch_normal(p.stretch, facet);
-	s.c = lobe_dot(v.o, s.m);
-	/* Not m2 - c^2: towards the thinner side it is the sine that decides, and it may be small. */
+	s.c = lobe_dot(stretched, facet);
+	const lobe_real c2 = s.c * s.c, m2 = lobe_dot(s.m, s.m);
 	const lobe_vec3 across = lobe_vec3_fma(-s.c, v.o, s.m);
-	const lobe_real s2 = lobe_dot(across, across);
-	const lobe_real g = lobe_fresnel_g(lobe_fma(v.side.at.eta2, s.c * s.c, v.side.at.k * s2));
-	s.at = lobe_fresnel_interface_at(v.side.at, s.c, g, lobe_fma(s.c, g, -s2), lobe_dot(s.m, s.m));
+	/* From within dense glass the sine decides, and it is small. */
+	const lobe_real s2 = p.dense != 0u ? lobe_dot(across, across) : m2 - c2;
+	const lobe_real dense_g2 = lobe_fma(v.side.at.eta2, c2, v.side.at.k * s2);
+	const lobe_real g = lobe_fresnel_g(p.dense != 0u ? dense_g2 : lobe_fma(v.side.at.k, m2, c2));
+	s.at = lobe_fresnel_interface_at(v.side.at, s.c, g, lobe_fma(s.c, g, -s2), m2);
 	s.r = lobe_fresnel_amplitudes_make(s.at);
 	return s;
 }
 
-/* Where the light goes, with wo above: 2 (o.m) m - o or refracted. (The length of what is refracted is worked out before it
- * is known whether it is: a sample is one long chain of operations that wait for each other.) */
-LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric_view v, lobe_rough_dielectric_choice s,
-					      int reflects)
+/* Where the light goes, with wo above: 2 (o.m) m - o or refracted. (Both are worked out before it is known which: a sample is
+ * one long chain of operations that wait for each other.) */
+LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric p, lobe_rough_dielectric_view v,
+					      lobe_rough_dielectric_choice s, int reflects)
 {
 	const lobe_vec3 bent = lobe_vec3_fma(s.r.bend, s.m, v.o);
-	const lobe_real refracts_scale = lobe_fma(v.side.step, lobe_dot(bent, bent), v.side.start);
-	const lobe_real of_m = reflects ? (s.c + s.c) / -s.at.m2 : s.r.bend;
-	const lobe_real scale = reflects ? LOBE_R(-1.0) : refracts_scale;
-	return lobe_vec3_scale(lobe_vec3_fma(of_m, s.m, v.o), scale);
+	const lobe_real excess =
+		lobe_fma(v.o.x, v.o.x, lobe_fma(v.o.y, v.o.y, lobe_fma(v.o.z, v.o.z, -LOBE_R(1.0))));
+	const lobe_real dense_scale = lobe_fma(v.side.step, lobe_dot(bent, bent), v.side.start);
+	const lobe_real scale = p.dense != 0u ? dense_scale : lobe_fma(v.side.step, excess, -v.side.inv_e);
+	const lobe_vec3 mirrored =
+		lobe_vec3_fma((s.c + s.c) / s.at.m2, s.m, lobe_vec3_make(-v.o.x, -v.o.y, -v.o.z));
+	return lobe_vec3_select(reflects, mirrored, lobe_vec3_scale(bent, scale));
 }
 
 /* The facet of a sample as pdf finds it again. There is none for a delta event, which keeps the sampled one's interface, with
@@ -300,8 +308,7 @@ LOBE_FN lobe_real lobe_rough_dielectric_sample_weight(lobe_uint ndf, lobe_rough_
 						      lobe_rough_dielectric_view v, lobe_vec3 i, int reflects)
 {
 	const int straight = !reflects & (p.delta != 0u);
-	const lobe_real weight = lobe_rough_dielectric_weight(ndf, p, v, i, reflects);
-	return straight ? v.side.scale : weight <= LOBE_REAL_MAX ? weight : LOBE_R(0.0);
+	return straight ? v.side.scale : lobe_rough_dielectric_weight(ndf, p, v, i, reflects);
 }
 
 LOBE_FN lobe_uint lobe_rough_dielectric_event(lobe_rough_dielectric p, int reflects)
@@ -318,7 +325,7 @@ LOBE_FN lobe_sample lobe_rough_dielectric_sample(lobe_uint ndf, lobe_rough_diele
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p, wo);
 	const lobe_rough_dielectric_choice s = lobe_rough_dielectric_choose(ndf, p, v, u);
 	const int reflects = lobe_fresnel_reflects(s.at, s.r, u.z);
-	const lobe_vec3 i = lobe_rough_dielectric_leave(v, s, reflects);
+	const lobe_vec3 i = lobe_rough_dielectric_leave(p, v, s, reflects);
 	/* Without an interface the probability to pass is 1, not 1 - F with its roundings. */
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_real surely = p.eta == one ? one : zero, perhaps = p.eta == one ? zero : one;
@@ -326,9 +333,9 @@ LOBE_FN lobe_sample lobe_rough_dielectric_sample(lobe_uint ndf, lobe_rough_diele
 	const lobe_real pdf = lobe_fma(lobe_rough_dielectric_prob(m), m.density, surely);
 	const lobe_real w = lobe_rough_dielectric_sample_weight(ndf, p, v, i, reflects);
 	const lobe_real there = lobe_min(lobe_min(lobe_min(v.o.z, m.side), m.seen), pdf);
-	const int ok = (there > zero) & (pdf <= LOBE_REAL_MAX);
-	return lobe_sample_select(ok, lobe_rough_dielectric_flip(wo, i), lobe_rgb_make(w, w, w), pdf,
-				  lobe_rough_dielectric_event(p, reflects));
+	const lobe_real finite = LOBE_REAL_MAX - (pdf + w); /* last, so that a NaN stays one */
+	return lobe_sample_select(lobe_min(there, finite) > zero, lobe_rough_dielectric_flip(wo, i),
+				  lobe_rgb_make(w, w, w), pdf, lobe_rough_dielectric_event(p, reflects));
 }
 
 #endif
