@@ -46,6 +46,8 @@ ROW_CFLAGS := $(LIB_CFLAGS) $(if $(filter -g%,$(CFLAGS)),-g1) $(ROW_OPT) $(forea
 	$(shell $(CC) -Werror $(f) -E -x c /dev/null >/dev/null 2>&1 && echo $(f)))
 
 # The order of instructions that suits processors with AVX-512, where it was seen to help (build/bench/throughput).
+TUNE_avx512_ggx_conductor := -mtune=icelake-server
+TUNE_avx512_beckmann_conductor := -mtune=icelake-server
 TUNE_avx512_ggx_dielectric := -mtune=icelake-server
 TUNE_avx512_beckmann_dielectric := -mtune=icelake-server
 

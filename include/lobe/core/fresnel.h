@@ -172,10 +172,10 @@ LOBE_FN lobe_vec3 lobe_reflect(lobe_vec3 w, lobe_vec3 m, lobe_real c)
 	return lobe_vec3_fma(c + c, m, lobe_vec3_make(-w.x, -w.y, -w.z));
 }
 
-/* What lobe_fresnel_conductor needs of the angle, shared by the three colours: c2 and s2 are cos^2 and sin^2, s4 = s2^2,
- * root2_c = sqrt(2) cos. */
+/* What lobe_fresnel_conductor needs of the angle, shared by the three colours: c2 and s2 are cos^2 and sin^2, s4 = s2^2, and
+ * the same times 2^36, which keeps what is near 1e-38 otherwise well above it. */
 typedef struct {
-	lobe_real c2, s2, s4, root2_c;
+	lobe_real c2, s2, big_c2, big_s2, big_s4;
 } lobe_fresnel_angle;
 
 LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_of(lobe_real c2, lobe_real s2)
@@ -183,8 +183,9 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_of(lobe_real c2, lobe_real s2)
 	lobe_fresnel_angle a;
 	a.c2 = c2;
 	a.s2 = s2;
-	a.s4 = s2 * s2;
-	a.root2_c = lobe_sqrt(c2 + c2);
+	a.big_c2 = LOBE_R(0x1p36) * c2;
+	a.big_s2 = LOBE_R(0x1p36) * s2;
+	a.big_s4 = s2 * a.big_s2;
 	return a;
 }
 
@@ -219,25 +220,24 @@ LOBE_FN lobe_fresnel_conductor_root lobe_fresnel_conductor_root_make(lobe_real s
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
- * The usual form (Born and Wolf, 14.2) needs 2Ac and q. Multiplied through by B = sqrt(2) max(A, K), both cases of the root
- * need one root and no division:
- *	F_s = N/D,  N, D = (q + c^2) B -+ X c sqrt(2),        X = q + t if t >= 0, else 2nk
- *	F = F_s E/(E + X c sqrt(2) s^2),                      E = (q c^2 + s^4) B
+ * The usual form (Born and Wolf, 14.2) needs 2Ac and q. Multiplied through by S = 2 max(A, K)^2 = q + |t|, both cases of the
+ * root need one root more and no division:
+ *	F_s = N/D,  N, D = (q + c^2) S -+ R,                  R = (q + t if t >= 0, else 2nk) sqrt(2 c^2 S)
+ *	F = F_s E/(E + R s^2),                                E = (q c^2 + s^4) S
  * where the second line is (F_s + F_p)/2. Error 3.1e-7 relative for real metals, 3.1e-7 absolute over the domain, but
  * for what a rounding of t does where n^2 is near sin^2 and k near 0 (tests/test_fresnel.c).
  *
- * den is mostly between 1e-12 and 8e18 over the domain; 0 where k = 0 and n = sin, which 2^-75 keeps it off. num, which is
- * a rounding of 0 where there is hardly an interface, may have either sign. */
+ * With the second line times 2^36, den is between about 1e-27 and 1e37 over the domain; 0 where k = 0 and n = sin, which
+ * 2^-100 keeps it off. num, which is a rounding of 0 where there is hardly an interface, may have either sign. */
 LOBE_FN lobe_quotient lobe_fresnel_conductor_quotient(lobe_fresnel_angle a, lobe_real n, lobe_real k)
 {
 	const lobe_fresnel_conductor_root r = lobe_fresnel_conductor_root_make(a.s2, n, k);
-	const lobe_real b = lobe_sqrt(r.sum);
-	const lobe_real xc = (r.t >= LOBE_R(0.0) ? r.sum : r.nk2) * a.root2_c;
-	const lobe_real p = (r.q + a.c2) * b;
-	const lobe_real e = lobe_fma(r.q, a.c2, a.s4) * b;
+	const lobe_real x = (r.t >= LOBE_R(0.0) ? r.sum : r.nk2) * lobe_sqrt((a.c2 + a.c2) * r.sum);
+	const lobe_real p = (r.q + a.c2) * r.sum;
+	const lobe_real e = lobe_fma(r.q, a.big_c2, a.big_s4) * r.sum;
 	lobe_quotient f;
-	f.num = (p - xc) * e;
-	f.den = lobe_fma(p + xc, lobe_fma(xc, a.s2, e), LOBE_R(0x1p-75));
+	f.num = (p - x) * e;
+	f.den = lobe_fma(p + x, lobe_fma(x, a.big_s2, e), LOBE_R(0x1p-100));
 	return f;
 }
 
@@ -253,7 +253,7 @@ LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle a, lobe_rgb n,
 	const lobe_quotient r = lobe_fresnel_conductor_quotient(a, n.r, k.r);
 	const lobe_quotient g = lobe_fresnel_conductor_quotient(a, n.g, k.g);
 	const lobe_quotient b = lobe_fresnel_conductor_quotient(a, n.b, k.b);
-	return lobe_rgb_make(lobe_abs(r.num * x / r.den), lobe_abs(g.num * x / g.den), lobe_abs(b.num * x / b.den));
+	return lobe_rgb_make(lobe_abs(r.num / r.den * x), lobe_abs(g.num / g.den * x), lobe_abs(b.num / b.den * x));
 }
 
 LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
