@@ -1,5 +1,5 @@
-/* hand.h - ggx_conductor by the library against loops without it: written by hand over the lobe's header, and what an engine
- * has today, one element at a time with libm. */
+/* hand.h - ggx_conductor by the library against loops without it: written by hand over the lobe's header, and what an
+ * engine has today, one element at a time with libm. */
 #ifndef LOBE_BENCH_HAND_H
 #define LOBE_BENCH_HAND_H
 
@@ -23,8 +23,8 @@ void bench_hand_sample_avx512(const lobe_ggx_conductor *p, const lobe_batch *b);
 void bench_naive_eval(const lobe_ggx_conductor *p, const lobe_batch *b);
 void bench_naive_sample(const lobe_ggx_conductor *p, const lobe_batch *b);
 
-/* On the first OpenCL device: racer[0] the library with device buffers, racer[1] a kernel by hand. 0 after a failure, which
- * it reports; -1: no such device. (hand_opencl.c) */
+/* On the first OpenCL device: racer[0] the library with device buffers, racer[1] a kernel by hand. 0 after a failure,
+ * which it reports; -1: no such device. (hand_opencl.c) */
 int bench_hand_opencl(const bench_arrays *a, int verb, size_t n, size_t runs, bench_racer racer[2]);
 
 #endif

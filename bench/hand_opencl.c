@@ -1,5 +1,5 @@
-/* hand_opencl.c - ggx_conductor on an OpenCL device: the library's batch of device buffers against a kernel of the user's own
- * over lobe_opencl_source(). */
+/* hand_opencl.c - ggx_conductor on an OpenCL device: the library's batch of device buffers against a kernel of the
+ * user's own over lobe_opencl_source(). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

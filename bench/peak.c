@@ -1,5 +1,5 @@
-/* peak.c - how many vector instructions of a kind a thread can do in a second: compiled with the options of the library's
- * loops, once for each instruction set, LOBE_ROW_ISA. */
+/* peak.c - how many vector instructions of a kind a thread can do in a second: compiled with the options of the
+ * library's loops, once for each instruction set, LOBE_ROW_ISA. */
 #include "peak.h"
 #include "timing.h"
 

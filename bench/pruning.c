@@ -100,8 +100,8 @@ static int write_source(const char *folder, const char *name, const char *source
 	return fclose(out) == 0;
 }
 
-/* Compiles source, and more in a file of its own, to folder/a.out, static and stripped, with the library when it is given.
- * Bytes of the file, and of the text of its object alone. */
+/* Compiles source, and more in a file of its own, to folder/a.out, static and stripped, with the library when it is
+ * given. Bytes of the file, and of the text of its object alone. */
 static int compile(const char *folder, const char *source, const char *more, const char *library, double *file,
 		   double *text)
 {

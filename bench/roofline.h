@@ -1,5 +1,5 @@
-/* roofline.h - how near a loop comes to what the processor allows: the operations in the loop's machine code, and the bytes
- * that it moves, against measured ceilings of both. */
+/* roofline.h - how near a loop comes to what the processor allows: the operations in the loop's machine code, and the
+ * bytes that it moves, against measured ceilings of both. */
 #ifndef LOBE_BENCH_ROOFLINE_H
 #define LOBE_BENCH_ROOFLINE_H
 

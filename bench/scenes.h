@@ -16,8 +16,9 @@ enum {
 const char *bench_lobe_name(int lobe);
 lobe_bsdf bench_lobe_material(int lobe);
 
-/* A scene of that lobe alone, or of every lobe when it is BENCH_LOBES. BENCH_OPEN: of the material of microfacet_conductor
- * and one that chooses otherwise wherever a choice is made at run time, so that a program for it has all choices open. */
+/* A scene of that lobe alone, or of every lobe when it is BENCH_LOBES. BENCH_OPEN: of the material of
+ * microfacet_conductor and one that chooses otherwise wherever a choice is made at run time, so that a program for it
+ * has all choices open. */
 lobe_status bench_scene_create(lobe_scene **out, lobe_device *device, int lobe);
 
 /* What a batch is asked for. */

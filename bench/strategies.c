@@ -1,10 +1,10 @@
 /* strategies.c - the ways to sample a microfacet lobe against each other: time, variance of the weight, samples thrown
  * away, and what they come to: how much variance a second of one thread removes.
  *
- * A white GGX mirror (F = 1), height-correlated, by each strategy of microfacet/strategy.h, for some widths and views. The
- * weight's mean is the same for all of them. Time is that of lobe_microfacet_conductor_sample called one point after
- * another, weight and pdf included, with the dispatch that all of them pay; efficiency is 1/(variance time). What the best
- * of them costs in a lobe of its own: bench/throughput.c.
+ * A white GGX mirror (F = 1), height-correlated, by each strategy of microfacet/strategy.h, for some widths and views.
+ * The weight's mean is the same for all of them. Time is that of lobe_microfacet_conductor_sample called one point
+ * after another, weight and pdf included, with the dispatch that all of them pay; efficiency is 1/(variance time). What
+ * the best of them costs in a lobe of its own: bench/throughput.c.
  *
  *	strategies [--quick] [--csv FILE] */
 #define _POSIX_C_SOURCE 200809L
@@ -28,8 +28,8 @@ typedef struct {
 	double ns, spread, mean, variance, rejected, efficiency;
 } result;
 
-/* Numbers of a sequence that fills the cube evenly (Roberts 2018): variances are those of independent samples all the same,
- * as they are averages over the cube. */
+/* Numbers of a sequence that fills the cube evenly (Roberts 2018): variances are those of independent samples all the
+ * same, as they are averages over the cube. */
 static lobe_vec3 point(uint32_t i)
 {
 	return lobe_vec3_make((float)((i * 0xd1b54a33u) >> 8) * 0x1p-24f, (float)((i * 0xabc98389u) >> 8) * 0x1p-24f,

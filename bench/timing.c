@@ -30,8 +30,8 @@ static double quantile(const double *sorted, size_t n, double q)
 	return sorted[low] + (at - (double)low) * (sorted[high] - sorted[low]);
 }
 
-/* How many of n sorted values lie beyond each end of the interval: the median is beyond values[r] when no more than r of
- * n fair coins fall on that side. n at most 1000, where 2^-n is still a number. */
+/* How many of n sorted values lie beyond each end of the interval: the median is beyond values[r] when no more than r
+ * of n fair coins fall on that side. n at most 1000, where 2^-n is still a number. */
 static size_t outside(size_t n)
 {
 	double term = 1.0;

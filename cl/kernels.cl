@@ -12,9 +12,9 @@
  * Each runs the indices [first, last), LOBE_RUN of them in one work-item. On a GPU that is 1, so that adjacent
  * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor, where
  * LOBE_LOOPS is 1, it is the argument run, many, and the groups hold one work-item: then the compiler sees an ordinary
- * loop and vectorises it, as it does the native ones. (PoCL 3.1 would rather not: left to loop over work-items itself, it
- * first packs the three colours of one element into a vector, and gives up on every body with a guard in it. That is 5 to
- * 20 times slower.)
+ * loop and vectorises it, as it does the native ones. (PoCL 3.1 would rather not: left to loop over work-items itself,
+ * it first packs the three colours of one element into a vector, and gives up on every body with a guard in it. That is
+ * 5 to 20 times slower.)
  *
  * The loop's body has no branch. In "many" a material without a lobe (slot LOBE_NO_SLOT) or out of range shades with
  * table[0] and the result is replaced by 0.

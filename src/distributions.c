@@ -1,5 +1,5 @@
-/* distributions.c - the distributions of microfacet normals that are made on the host: parameters checked, constants and
- * tables prepared in double precision. */
+/* distributions.c - the distributions of microfacet normals that are made on the host: parameters checked, constants
+ * and tables prepared in double precision. */
 #include <math.h>
 #include <stdint.h>
 

@@ -1,6 +1,6 @@
 /* event.c - batches that run behind the caller: each device that is asked has a thread, which runs them one after
- * another as the plain calls would. That serves every kind of device alike; what a device can do at the same time, copies
- * beside kernels or many threads, it does within each batch. */
+ * another as the plain calls would. That serves every kind of device alike; what a device can do at the same time,
+ * copies beside kernels or many threads, it does within each batch. */
 #define _POSIX_C_SOURCE 200809L
 #include "event.h"
 

@@ -1,5 +1,5 @@
-/* fallback.c - an OpenCL device with a native one behind it, "opencl,native": what the first fails to do the second does.
- * A batch that failed halfway runs again from its beginning: outputs overlap no inputs, so nothing is lost. */
+/* fallback.c - an OpenCL device with a native one behind it, "opencl,native": what the first fails to do the second
+ * does. A batch that failed halfway runs again from its beginning: outputs overlap no inputs, so nothing is lost. */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <stdio.h>

@@ -15,8 +15,8 @@ enum {
 	LOBE_INDEX_NONE = LOBE_COUNT /* LOBE_KIND_NONE: nothing to run, outputs 0 */
 };
 
-/* What a row loop or kernel computes, by the outputs that are wanted. LOBE_VERB(NAME, name); lobe_verb_writes() tells the
- * outputs. */
+/* What a row loop or kernel computes, by the outputs that are wanted. LOBE_VERB(NAME, name); lobe_verb_writes() tells
+ * the outputs. */
 #define LOBE_VERBS(LOBE_VERB)                                                                                          \
 	LOBE_VERB(EVAL_F, eval_f)         /* f */                                                                      \
 	LOBE_VERB(EVAL_PDF, eval_pdf)     /* pdf */                                                                    \
@@ -119,7 +119,8 @@ extern const char *const lobe_param_name[LOBE_COUNT];
 /* LOBE_INDEX_* of a kind, LOBE_INDEX_NONE of LOBE_KIND_NONE, -1 of anything else. (fields.c) */
 int lobe_index_of_kind(uint32_t kind);
 
-/* The arrays of a job by position, as lobe_batch calls them: [lobe_verb_is_sample(verb)][LOBE_IN_* or LOBE_OUT_*]. (batch.c) */
+/* The arrays of a job by position, as lobe_batch calls them: [lobe_verb_is_sample(verb)][LOBE_IN_* or LOBE_OUT_*].
+ * (batch.c) */
 extern const char *const lobe_in_names[2][LOBE_IN_COUNT], *const lobe_out_names[2][LOBE_OUT_COUNT];
 
 /* Checks every field of materials[i]; LOBE_ERROR_PARAMETER and a message that names i and the field. (fields.c) */
@@ -134,14 +135,15 @@ enum {
 	LOBE_CHOICES_COUNT
 };
 
-/* Adds bit n of used[choice] for the value n that a checked material chooses. 0: it has nothing to choose. (fields.c) */
+/* Adds bit n of used[choice] for the value n that a checked material chooses. 0: it has nothing to choose.
+ * (fields.c) */
 int lobe_add_choices(const lobe_bsdf *material, uint32_t used[LOBE_CHOICES_COUNT]);
 
 /* The options of a scene whose tables are filled, the caller's to free. NULL: out of memory. (options.c) */
 char *lobe_make_options(const lobe_scene *scene, const lobe_bsdf *materials);
 
-/* lobe_fail(status, format, ...): sets this thread's error message (printf) and is status. A macro, so that a reader and
- * an analyser see that it is not LOBE_OK. (status.c) */
+/* lobe_fail(status, format, ...): sets this thread's error message (printf) and is status. A macro, so that a reader
+ * and an analyser see that it is not LOBE_OK. (status.c) */
 #define lobe_fail(status, ...) (lobe_set_error_message(__VA_ARGS__), (status))
 void lobe_set_error_message(const char *format, ...)
 #ifdef __GNUC__
@@ -173,11 +175,12 @@ void lobe_tables_rebase(lobe_scene *scene, uint64_t base);
 /* Whether the table of materials[i], if it has one, begins with its own length. (tables.c) */
 lobe_status lobe_check_table(const lobe_bsdf *materials, size_t i);
 
-/* The table of microfacet/profile.h for a density of slopes f, up to a factor; untouched on failure. (profile_table.c) */
+/* The table of microfacet/profile.h for a density of slopes f, up to a factor; untouched on failure.
+ * (profile_table.c) */
 lobe_status lobe_profile_make(float *table, lobe_profile_function f, void *context);
 
-/* Backends. lobe_native_open: threads 0 means all processors. (native.c and opencl.c, or native_none.c and opencl_none.c
- * where one is left out) */
+/* Backends. lobe_native_open: threads 0 means all processors. (native.c and opencl.c, or native_none.c and
+ * opencl_none.c where one is left out) */
 lobe_status lobe_native_count(size_t *count);
 lobe_status lobe_native_open(lobe_device **out, size_t threads);
 lobe_status lobe_opencl_count(size_t *count);

@@ -1,5 +1,5 @@
-/* linked.c - the loops of one lobe for all instruction sets: compiled once for each lobe, LOBE_ROW. An object of its own, so
- * that a linker takes a lobe's loops when lobe_linked lists them and not otherwise. */
+/* linked.c - the loops of one lobe for all instruction sets: compiled once for each lobe, LOBE_ROW. An object of its
+ * own, so that a linker takes a lobe's loops when lobe_linked lists them and not otherwise. */
 #include "rows.h"
 
 #define PASTE_(a, b) a##b

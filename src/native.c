@@ -1,5 +1,5 @@
-/* native.c - the device of the processor: picks the instruction set and cuts batches into chunks (native_chunk.c) for the
- * threads. */
+/* native.c - the device of the processor: picks the instruction set and cuts batches into chunks (native_chunk.c) for
+ * the threads. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <pthread.h>
 #include <sched.h>
@@ -70,7 +70,8 @@ static size_t chunk_size(const native_device *device, size_t count, double cost)
  * processors by more, so a number of elements would not do. A thread that was put aside in between counts little. */
 static void learn(double *cost, double took) { *cost = *cost > took ? took : *cost + (took - *cost) / 8; }
 
-/* Whether no cache would keep what a batch writes. Results for structs go through the thread's own memory, which does. */
+/* Whether no cache would keep what a batch writes. Results for structs go through the thread's own memory, which
+ * does. */
 static int streams(const lobe_job *job)
 {
 	size_t outputs = 0;

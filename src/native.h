@@ -1,5 +1,5 @@
-/* native.h - what the parts of the native backend share: native.c (devices, instruction sets, threads), native_chunk.c (one
- * chunk of a batch on one thread), rows.c (the loops), native_split.c (mixed lobes). */
+/* native.h - what the parts of the native backend share: native.c (devices, instruction sets, threads), native_chunk.c
+ * (one chunk of a batch on one thread), rows.c (the loops), native_split.c (mixed lobes). */
 #ifndef LOBE_NATIVE_H
 #define LOBE_NATIVE_H
 

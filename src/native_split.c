@@ -4,8 +4,8 @@
  * and that instruction set's compiler options. With VBMI2 few keys are sorted by tiles (native_tiles.h); this is the
  * form for all others, and for many keys.
  *
- * Both ways the caller's arrays are walked through in order, which the processor foresees, and what is at random stays in
- * the cache. Three arrays share a pass, and a load of the place. That is bound by a store a cycle. */
+ * Both ways the caller's arrays are walked through in order, which the processor foresees, and what is at random stays
+ * in the cache. Three arrays share a pass, and a load of the place. That is bound by a store a cycle. */
 #include "native_split.h"
 
 #define PASTE_(a, b) a##b

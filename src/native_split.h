@@ -8,15 +8,15 @@
 enum {
 	LOBE_NATIVE_SPLIT_MAX = 2048,  /* elements of a block */
 	LOBE_NATIVE_SPLIT_VECTOR = 16, /* each key's elements begin at a multiple of this */
-	/* Scenes of no more materials are split by material, so that their parameters are constants of the loops; others
-	 * by lobe. */
+	/* Scenes of no more materials are split by material, so that their parameters are constants of the loops;
+	 * others by lobe. */
 	LOBE_NATIVE_SPLIT_MATERIALS = 32,
 	LOBE_NATIVE_SPLIT_KEYS =
 		(LOBE_COUNT > LOBE_NATIVE_SPLIT_MATERIALS ? (int)LOBE_COUNT : (int)LOBE_NATIVE_SPLIT_MATERIALS) + 1,
 	/* Vectors are moved whole: behind each key's elements, and behind all, is room for one more. */
 	LOBE_NATIVE_SPLIT_ROOM = LOBE_NATIVE_SPLIT_MAX + (2 * LOBE_NATIVE_SPLIT_KEYS + 1) * LOBE_NATIVE_SPLIT_VECTOR,
-	/* Elements of a tile (native_tiles.h); its most runs, whose places fit into a byte; and the keys up to which it has
-	 * no more, since each run but the last of a key is full. */
+	/* Elements of a tile (native_tiles.h); its most runs, whose places fit into a byte; and the keys up to which it
+	 * has no more, since each run but the last of a key is full. */
 	LOBE_NATIVE_SPLIT_TILE = 64,
 	LOBE_NATIVE_SPLIT_RUNS = 16,
 	LOBE_NATIVE_SPLIT_TILE_KEYS = LOBE_NATIVE_SPLIT_RUNS - LOBE_NATIVE_SPLIT_TILE / LOBE_NATIVE_SPLIT_VECTOR + 1,
@@ -47,14 +47,14 @@ typedef struct {
 typedef struct {
 	/* to[i] = table[index[i]] */
 	void (*look_up)(uint32_t *to, const uint32_t *table, const uint32_t *index, size_t n);
-	/* The place of each element when they are sorted by key[material[i]], below keys; material[i] is below materials.
-	 * Those of key k are at [begin[k], begin[k] + count[k]). */
+	/* The place of each element when they are sorted by key[material[i]], below keys; material[i] is below
+	 * materials. Those of key k are at [begin[k], begin[k] + count[k]). */
 	void (*sort)(lobe_native_places *places, uint32_t *begin, uint32_t *count, const uint32_t *key, uint32_t keys,
 		     size_t materials, const uint32_t *material, size_t n);
 	/* For each of so many arrays of 4-byte words: to[a][place of i] = from[a][i]. */
 	void (*part)(void *const *to, const void *const *from, int arrays, const lobe_native_places *places, size_t n);
-	/* to[a][i] = from[a][place of i], for i in [first, end); first is a multiple of LOBE_NATIVE_SPLIT_TILE. stream: past
-	 * the caches, where to[a] is aligned to their lines; settle() before another thread is told. */
+	/* to[a][i] = from[a][place of i], for i in [first, end); first is a multiple of LOBE_NATIVE_SPLIT_TILE. stream:
+	 * past the caches, where to[a] is aligned to their lines; settle() before another thread is told. */
 	void (*join)(void *const *to, const void *const *from, int arrays, const lobe_native_places *places,
 		     size_t first, size_t end, int stream);
 	void (*settle)(void);

@@ -2,10 +2,10 @@
  * (VBMI2: Ice Lake, Zen 4 and later). Included by native_split.c.
  *
  * The elements of one key in a tile are runs of up to 16. Parting picks a run out of the tile's four vectors by two
- * permutations and a blend and stores it whole behind the key's last: what is behind its end is overwritten by the next.
- * Joining loads the tile's runs, a vector each, and picks the tile's elements out of all of them. So a processor moves
- * sixteen words where, word by word, it is bound by one store a cycle. Tiles of 16 would not pay: their runs of three or
- * four take as many stores, which straddle cache lines. */
+ * permutations and a blend and stores it whole behind the key's last: what is behind its end is overwritten by the
+ * next. Joining loads the tile's runs, a vector each, and picks the tile's elements out of all of them. So a processor
+ * moves sixteen words where, word by word, it is bound by one store a cycle. Tiles of 16 would not pay: their runs of
+ * three or four take as many stores, which straddle cache lines. */
 #ifndef LOBE_NATIVE_TILES_H
 #define LOBE_NATIVE_TILES_H
 

@@ -1,5 +1,5 @@
-/* opencl_all.c - every OpenCL device as one: a batch is cut into a part for each, as large as the device was fast. Where
- * the cuts fall makes no difference to an element, so results do not depend on it. */
+/* opencl_all.c - every OpenCL device as one: a batch is cut into a part for each, as large as the device was fast.
+ * Where the cuts fall makes no difference to an element, so results do not depend on it. */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <stdio.h>

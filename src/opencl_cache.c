@@ -1,6 +1,6 @@
 /* opencl_cache.c - the cache folder. A file's name is the hash of its key; the key itself stands in the file and is
- * compared, so that a collision finds nothing rather than something wrong, and a checksum over all of it tells a file that
- * is not whole. A file is written under another name and then renamed: readers see the old one or the new one. */
+ * compared, so that a collision finds nothing rather than something wrong, and a checksum over all of it tells a file
+ * that is not whole. A file is written under another name and then renamed: readers see the old one or the new one. */
 #define _POSIX_C_SOURCE 200809L
 #include "opencl_cache.h"
 

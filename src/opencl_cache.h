@@ -1,4 +1,5 @@
-/* opencl_cache.h - files that outlive the process: what was expensive to make, found again by all that it was made from.
+/* opencl_cache.h - files that outlive the process: what was expensive to make, found again by all that it was made
+ * from.
  *
  * The folder is $LOBE_CACHE_DIR, else $XDG_CACHE_HOME/lobe, else $HOME/.cache/lobe; with LOBE_CACHE_DIR empty, or no
  * folder that can be written, there is no cache. Nothing here fails: what cannot be read is not there, and what cannot

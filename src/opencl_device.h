@@ -101,9 +101,11 @@ void lobe_cl_programs_release(lobe_cl_device *device);
 lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program, int lobe, int verb, int how,
 			       lobe_cl_kernel *out);
 
-/* opencl_binary.c: binaries of programs in the cache (opencl_cache.h). None of these fails: else there is the source. */
+/* opencl_binary.c: binaries of programs in the cache (opencl_cache.h). None of these fails: else there is the
+ * source. */
 
-/* Sets p->key: the three parts of the source, the options, and all that names the device and its driver; and p->grows. */
+/* Sets p->key: the three parts of the source, the options, and all that names the device and its driver; and
+ * p->grows. */
 void lobe_cl_binary_find_key(const lobe_cl_device *device, lobe_cl_program *p, const char *const source[3]);
 /* Sets p->program from the cache, built, unless it is not there or the device does not take it. */
 void lobe_cl_binary_load(lobe_cl_device *device, lobe_cl_program *p);

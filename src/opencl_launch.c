@@ -80,7 +80,8 @@ static void put_ulong(arguments *a, size_t value)
 }
 
 /* Elements of one work-item. A processor's units get a few each, so that one that is disturbed takes fewer; in whole
- * pages of floats, and up to as many as make what a work-item does before and after its loop not count (of 1024, 3 %). */
+ * pages of floats, and up to as many as make what a work-item does before and after its loop not count (of 1024, 3
+ * %). */
 static size_t run_of(const lobe_cl_device *device, size_t count)
 {
 	const size_t page = 1024, most = 16 * page, few = 4;

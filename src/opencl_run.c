@@ -8,7 +8,8 @@
 
 /* Host arrays go through in chunks of so many elements. Where host and device share memory, what one buffer can hold.
  * Where they do not, small enough that the first one's kernels start soon and the kept buffers stay small, and large
- * enough to hide the cost of a command: a batch goes in four chunks as long as they are not smaller or larger than this.
+ * enough to hide the cost of a command: a batch goes in four chunks as long as they are not smaller or larger than
+ * this.
  */
 #ifndef LOBE_CL_WRAP_MAX
 #define LOBE_CL_WRAP_MAX ((size_t)1 << 30)
@@ -185,8 +186,9 @@ static lobe_status run_wrapped(lobe_cl_shading *b, const lobe_job *job, size_t l
 	return status;
 }
 
-/* Separate memory: chunks go to the lanes in turn. Each lane's queue is in order, so a chunk's copies wait for the chunk
- * before the last, whose buffers they use, and for nothing else: they go on beside the kernels of the last one. */
+/* Separate memory: chunks go to the lanes in turn. Each lane's queue is in order, so a chunk's copies wait for the
+ * chunk before the last, whose buffers they use, and for nothing else: they go on beside the kernels of the last
+ * one. */
 static lobe_status run_copied(lobe_cl_shading *b, const lobe_job *job, size_t limit)
 {
 	lobe_cl_device *const device = b->device;

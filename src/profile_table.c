@@ -48,7 +48,8 @@ static knot knot_at(const curve *c, double l)
 		k.log_value = log(h);
 		k.slope = fall * exp(l) * sqrt(c->t0) / h;
 	} else {
-		/* d log Q/dl = -(dQ/du) (du/dl)/Q with du/dl = X/(2 (X - 1)); at l = 0 both vanish and dQ/du ~ X - 1. */
+		/* d log Q/dl = -(dQ/du) (du/dl)/Q with du/dl = X/(2 (X - 1)); at l = 0 both vanish and dQ/du ~ X -
+		 * 1. */
 		const double q = lobe_slope_tail(c->s, u), r2 = exp(2.0 * u) / c->t0;
 		k.log_value = log(q);
 		k.slope = lobe_slope_density(c->s, u) * (1.0 + r2) / (2.0 * r2 * q);
@@ -115,7 +116,8 @@ static double last_l(const curve *c)
 	return lo;
 }
 
-/* Between two places, where X is a float: what is known of the curve at a knot is then known of where the table has it. */
+/* Between two places, where X is a float: what is known of the curve at a knot is then known of where the table has
+ * it. */
 static double middle_l(double a, double b) { return log((double)(float)exp(0.5 * (a + b))); }
 
 /* Splits the worst piece until there are enough, in order. */

@@ -47,8 +47,8 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	FETCH_4(48, which) FETCH_4(52, which) FETCH_4(56, which) FETCH_4(60, which)
 /* clang-format on */
 
-/* clang's cost model would leave a cheap lobe's gathers scalar on SSE2. Of a loop that calls (LOBE_FN_APART) it would say
- * that it does as it must. */
+/* clang's cost model would leave a cheap lobe's gathers scalar on SSE2. Of a loop that calls (LOBE_FN_APART) it would
+ * say that it does as it must. */
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wpass-failed"
 #define VECTORISE _Pragma("clang loop vectorize(enable)")
@@ -151,8 +151,8 @@ typedef char words_max_is_enough[WORDS <= WORDS_MAX ? 1 : -1];
 	}
 #define SAMPLE_WI_ARGS INPUT_ARGS, out[0], out[1], out[2], out[LOBE_OUT_EVENT]
 
-/* Loops over one material come a second time without what few materials need, whose selections take time from all others:
- * where the Makefile names the prefix of the lobe's functions that tell, _is_plain and _plain. */
+/* Loops over one material come a second time without what few materials need, whose selections take time from all
+ * others: where the Makefile names the prefix of the lobe's functions that tell, _is_plain and _plain. */
 #ifdef LOBE_ROW_PLAIN
 #define IS_PLAIN(table) PASTE(LOBE_ROW_PLAIN, _is_plain)(*(const PARAMS *)(table))
 #define PLAIN           p = PASTE(LOBE_ROW_PLAIN, _plain)(p);

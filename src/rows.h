@@ -25,7 +25,8 @@ enum {
 	LOBE_ISA_COUNT
 };
 
-/* The loops of a lobe (linked.c), and those of the program, up to a NULL (native_list.c, or lobe/link.h in a program). */
+/* The loops of a lobe (linked.c), and those of the program, up to a NULL (native_list.c, or lobe/link.h in a
+ * program). */
 struct lobe_linked {
 	int lobe; /* LOBE_INDEX_* */
 	const lobe_rows *rows[LOBE_ISA_COUNT];

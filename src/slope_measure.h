@@ -1,4 +1,5 @@
-/* slope_measure.h - a density of slopes told by a callback, integrated once: its tail and its masking at any steepness. */
+/* slope_measure.h - a density of slopes told by a callback, integrated once: its tail and its masking at any
+ * steepness. */
 #ifndef LOBE_SLOPE_MEASURE_H
 #define LOBE_SLOPE_MEASURE_H
 
@@ -7,8 +8,8 @@
 
 enum { LOBE_PANEL_POINTS = 10, LOBE_MOMENTS = 5 };
 
-/* Steepness is told by u = log r throughout. Panel k holds the rings from edge[k] to edge[k + 1], as LOBE_PANEL_POINTS rings
- * of steepness r[] and share m[]; the shares of all panels and of the rings beyond the last edge add up to 1.
+/* Steepness is told by u = log r throughout. Panel k holds the rings from edge[k] to edge[k + 1], as LOBE_PANEL_POINTS
+ * rings of steepness r[] and share m[]; the shares of all panels and of the rings beyond the last edge add up to 1.
  * above[k]: the share of panel k and all beyond. beyond: that of the rings beyond the last edge, at mean steepness
  * beyond_r. */
 typedef struct {

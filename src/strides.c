@@ -46,8 +46,8 @@ static int overlap(const array *a, const array *b)
 {
 	if (a->stride < b->stride)
 		return overlap(b, a);
-	/* From the first word of a that is not before b on: is one a multiple of b's stride away from b? What remains of
-	 * the distance repeats after as many steps as b's stride has words, at most. */
+	/* From the first word of a that is not before b on: is one a multiple of b's stride away from b? What remains
+	 * of the distance repeats after as many steps as b's stride has words, at most. */
 	const uintptr_t skipped = a->at < b->at ? (b->at - a->at + a->stride - 1) / a->stride * a->stride : 0;
 	const size_t period = a->stride % b->stride == 0 ? 1 : b->stride / 4;
 	uintptr_t at = a->at + skipped;

@@ -24,11 +24,12 @@ static inline void lobe_strided_add(lobe_strided *s, void *packed, const void *a
 void lobe_pack(const lobe_strided *s, size_t n);
 void lobe_unpack(const lobe_strided *s, size_t n);
 
-/* Alignment, strides and overlap of a job's arrays; LOBE_ERROR_ARGUMENT and a message that names the field. (strides.c) */
+/* Alignment, strides and overlap of a job's arrays; LOBE_ERROR_ARGUMENT and a message that names the field.
+ * (strides.c) */
 lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call);
 
-/* Runs a job that has been checked; on a device that takes packed arrays alone in parts that are packed and unpacked here.
- * (strides.c) */
+/* Runs a job that has been checked; on a device that takes packed arrays alone in parts that are packed and unpacked
+ * here. (strides.c) */
 lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job);
 
 #endif

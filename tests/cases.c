@@ -326,8 +326,8 @@ static void describe_microfacet_dielectric(test_case *c)
 	c->flags |= CASE_TWO_SIDED | CASE_TRANSMITS | (p.delta != 0u ? CASE_DELTA : 0u);
 }
 
-/* No width: what it reflects is spread over the hemisphere, however narrow the facets. Reciprocal but for what the fixed
- * set of facets is off by. */
+/* No width: what it reflects is spread over the hemisphere, however narrow the facets. Reciprocal but for what the
+ * fixed set of facets is off by. */
 static void describe_microfacet_diffuse(test_case *c) { c->flags = CASE_HEAVY; }
 
 #define MAX_CASES 256

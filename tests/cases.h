@@ -58,8 +58,8 @@ double case_rounding(const test_case *c, lobe_vec3 wo);
 int case_carries_radiance(const test_case *c);
 lobe_bsdf case_with_other_transport(const test_case *c);
 
-/* How much a rounding of an angle counts in a lobe's Fresnel term: the phase of its film, twice OPD/wavelength in radians,
- * where that is more than 1, or 1. */
+/* How much a rounding of an angle counts in a lobe's Fresnel term: the phase of its film, twice OPD/wavelength in
+ * radians, where that is more than 1, or 1. */
 double case_film_condition(const test_case *c);
 
 #endif

@@ -191,8 +191,8 @@ static double one(void *context, double r)
 
 double reference_tail(const distribution_case *c, double r) { return ring_integral(c, r, HUGE_VAL, one, NULL); }
 
-/* 2 s r (sin p - p cos p) with cos p = -z/(s r), or 2 pi z where the whole ring is seen. (1 + cos p)/2 tells p with small
- * error where it is small, below the horizon. */
+/* 2 s r (sin p - p cos p) with cos p = -z/(s r), or 2 pi z where the whole ring is seen. (1 + cos p)/2 tells p with
+ * small error where it is small, below the horizon. */
 double reference_kernel(double s, double z, double r)
 {
 	if (z >= s * r)

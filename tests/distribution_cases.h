@@ -1,5 +1,6 @@
-/* distribution_cases.h - distributions of microfacet normals to test, each beside a density of slopes written here from the
- * textbooks, in double, and what quadrature makes of that density: nothing of the library's tables or closed forms. */
+/* distribution_cases.h - distributions of microfacet normals to test, each beside a density of slopes written here from
+ * the textbooks, in double, and what quadrature makes of that density: nothing of the library's tables or closed
+ * forms. */
 #ifndef LOBE_TESTS_DISTRIBUTION_CASES_H
 #define LOBE_TESTS_DISTRIBUTION_CASES_H
 
@@ -9,7 +10,8 @@
 
 enum { DISTRIBUTION_CASES_MAX = 40 };
 
-/* p22: density of slopes at tan theta = r of a surface with parameters a and b. breaks: where it is not smooth, 0 ends. */
+/* p22: density of slopes at tan theta = r of a surface with parameters a and b. breaks: where it is not smooth, 0
+ * ends. */
 typedef struct distribution_case {
 	const char *name;
 	double (*p22)(const struct distribution_case *c, double r);
@@ -22,8 +24,8 @@ typedef struct distribution_case {
 const distribution_case *distribution_cases(size_t *count);
 const distribution_case *distribution_case_named(const char *name);
 
-/* By Gauss-Legendre sums over panels of log(r - z), 16 points (GSL): the integral of weight(context, r) 2 pi r P22 dr over
- * [r0, r1], r1 up to infinity, panels growing away from r0 in either direction of scale. */
+/* By Gauss-Legendre sums over panels of log(r - z), 16 points (GSL): the integral of weight(context, r) 2 pi r P22 dr
+ * over [r0, r1], r1 up to infinity, panels growing away from r0 in either direction of scale. */
 double ring_integral(const distribution_case *c, double r0, double r1, double (*weight)(void *context, double r),
 		     void *context);
 

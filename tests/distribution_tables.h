@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* What lobe_distribution_phong, _gtr and _student_t make: norm, and the address of a table that stays. ndf: LOBE_NDF_*. Of
- * LOBE_NDF_TABULATED the density is exp(-3 tan theta). */
+/* What lobe_distribution_phong, _gtr and _student_t make: norm, and the address of a table that stays. ndf: LOBE_NDF_*.
+ * Of LOBE_NDF_TABULATED the density is exp(-3 tan theta). */
 typedef struct {
 	double norm;
 	uint64_t table;

@@ -1,5 +1,5 @@
-/* energy_table.h - the energy that a white GGX mirror keeps, E(mu, alpha), height-correlated, by quadrature made apart from this
- * library, to four digits. */
+/* energy_table.h - the energy that a white GGX mirror keeps, E(mu, alpha), height-correlated, by quadrature made apart
+ * from this library, to four digits. */
 #ifndef LOBE_TESTS_ENERGY_TABLE_H
 #define LOBE_TESTS_ENERGY_TABLE_H
 

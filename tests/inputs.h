@@ -24,8 +24,8 @@ void inputs_random(inputs in, size_t first);
  * both sides, not quite unit, zero, NaN and infinite; u at 0, 2^-149, 2^-24, around 1/2 and 1 - 2^-24. */
 inputs inputs_extreme(void);
 
-/* A batch of these elements with every output, for both verbs: out holds f, pdf, sample_wi, weight, sample_pdf and event
- * one after another, in.count each. */
+/* A batch of these elements with every output, for both verbs: out holds f, pdf, sample_wi, weight, sample_pdf and
+ * event one after another, in.count each. */
 enum { INPUTS_OUTPUTS = 12 };
 lobe_batch inputs_batch(inputs in, const uint32_t *material, float *out);
 

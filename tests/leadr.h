@@ -1,5 +1,6 @@
-/* leadr.h - correlated and tilted microsurfaces in double as Dupuy et al. 2013 ("Linear efficient antialiased displacement
- * and reflectance mapping") write them: whitened slopes and rho. No code or rearrangement is shared with the library. */
+/* leadr.h - correlated and tilted microsurfaces in double as Dupuy et al. 2013 ("Linear efficient antialiased
+ * displacement and reflectance mapping") write them: whitened slopes and rho. No code or rearrangement is shared with
+ * the library. */
 #ifndef LOBE_TESTS_LEADR_H
 #define LOBE_TESTS_LEADR_H
 

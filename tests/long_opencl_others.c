@@ -1,6 +1,6 @@
-/* long_opencl_others.c - other OpenCL implementations than the one that the tests run on: long_opencl_others.sh sets each
- * up and runs this. Every device that promises exact arithmetic gives the native device's bits. One that does not is
- * refused; with LOBE_OTHERS_EXACT it is made to claim it all the same, and must give them too. */
+/* long_opencl_others.c - other OpenCL implementations than the one that the tests run on: long_opencl_others.sh sets
+ * each up and runs this. Every device that promises exact arithmetic gives the native device's bits. One that does not
+ * is refused; with LOBE_OTHERS_EXACT it is made to claim it all the same, and must give them too. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

@@ -46,8 +46,8 @@ static inline lobe_vec3 direction_at(double z, double phi)
 }
 
 /* (x, y) of the unit square as the facet of the mapped surface whose slopes are those of the GGX surface of the same
- * width: mean + A like r (cos, sin)(2 pi y), r = sqrt(1/x^6 - 1), which is smooth where a tail is long. Unit; returns its
- * solid angle per area of the square. */
+ * width: mean + A like r (cos, sin)(2 pi y), r = sqrt(1/x^6 - 1), which is smooth where a tail is long. Unit; returns
+ * its solid angle per area of the square. */
 static inline double surface_facet(const lobe_microsurface *s, double x_in, double y, double m[3])
 {
 	const double root = fmax(x_in, 1e-4), x = root * root * root, like = (double)s->like;

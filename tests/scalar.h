@@ -26,8 +26,8 @@ static inline void scalar_shade(const lobe_bsdf *materials, const uint32_t *mate
 	}
 }
 
-/* The same as a user's program has it that is not compiled for one processor: lobe_fma in double. (The test programs are
- * compiled for theirs; see the Makefile's TEST_PLAIN.) */
+/* The same as a user's program has it that is not compiled for one processor: lobe_fma in double. (The test programs
+ * are compiled for theirs; see the Makefile's TEST_PLAIN.) */
 void scalar_shade_plain(const lobe_bsdf *materials, const uint32_t *material, inputs in, float *const *out);
 
 #endif

@@ -1,5 +1,5 @@
-/* test_async.c - batches that run behind the caller: the same bits, in order, several at once, and failures that come out
- * when they are waited for. With the argument "native", without OpenCL. */
+/* test_async.c - batches that run behind the caller: the same bits, in order, several at once, and failures that come
+ * out when they are waited for. With the argument "native", without OpenCL. */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
 #include <stdio.h>

@@ -356,8 +356,8 @@ static void test_results_and_subsets(void)
 	}
 }
 
-/* Scenes of few and of many materials, in random order and in runs, give what the shading functions give: they are sorted
- * by material, by lobe, or not at all. */
+/* Scenes of few and of many materials, in random order and in runs, give what the shading functions give: they are
+ * sorted by material, by lobe, or not at all. */
 static void test_many_materials(void)
 {
 	static const size_t counts[] = {2, 9, 10, 31, 32, 33, 100};

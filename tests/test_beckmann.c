@@ -1,5 +1,6 @@
-/* test_beckmann.c - microfacet/beckmann.h: the distribution, its projected area and masking, and visible-normal sampling,
- * against the definitions in double. Widths are the business of stretch.h (test_ggx.c) and of the lobes' tests. */
+/* test_beckmann.c - microfacet/beckmann.h: the distribution, its projected area and masking, and visible-normal
+ * sampling, against the definitions in double. Widths are the business of stretch.h (test_ggx.c) and of the lobes'
+ * tests. */
 #include "measured.h"
 #include "support.h"
 #include "unity.h"
@@ -109,8 +110,8 @@ static void test_hidden_and_t(void)
 		}
 	}
 	measured("hidden: relative error over (10 + 7 c^2) u", worst_hidden, 1.0);
-	/* c carries 3 U, of which t sees as much as d ierfc/dc = -erfc(c) passes on; 3 U for r, the sum and the product; the
-	 * polynomial is off by .8 U where its value is about all of t, and rounds 2 U. */
+	/* c carries 3 U, of which t sees as much as d ierfc/dc = -erfc(c) passes on; 3 U for r, the sum and the
+	 * product; the polynomial is off by .8 U where its value is about all of t, and rounds 2 U. */
 	measured("t: relative error in u", worst_t / U, 7.0);
 	measured("G2/min(G1(o), G1(i)) - 1, in u", worst_g2 / U, 14.0);
 	/* The ends: straight up, along the horizon, nowhere. */
@@ -142,8 +143,8 @@ static void test_rational_lambda(void)
 
 /* --- integrals of D --------------------------------------------------------------------------------------------------- */
 
-/* Over slopes (x, y), where D m.z dm = P22 dx dy and P22 is the density at (-x, -y, 1) over pi. The plane of slopes is cut
- * along the line where v.m changes its sign, so that the integrand is smooth. */
+/* Over slopes (x, y), where D m.z dm = P22 dx dy and P22 is the density at (-x, -y, 1) over pi. The plane of slopes is
+ * cut along the line where v.m changes its sign, so that the integrand is smooth. */
 typedef struct {
 	lobe_vec3 v;
 	double x;

@@ -1,5 +1,5 @@
-/* test_choices.c - a scene's OpenCL program is compiled for what its materials choose, and for nothing else: the options
- * say so, and not one bit differs from the loops that can do everything. */
+/* test_choices.c - a scene's OpenCL program is compiled for what its materials choose, and for nothing else: the
+ * options say so, and not one bit differs from the loops that can do everything. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

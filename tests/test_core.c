@@ -440,8 +440,8 @@ static void test_frame_tangent(void)
 
 /* --- chains of fma in scalar code --------------------------------------------------------------------------------- */
 
-/* A point moved along a ray, and the direction from c to it: what a renderer does with the vectors. Not inlined, so that
- * the compiler meets the components side by side, as in the function where the fault was found. */
+/* A point moved along a ray, and the direction from c to it: what a renderer does with the vectors. Not inlined, so
+ * that the compiler meets the components side by side, as in the function where the fault was found. */
 __attribute__((noinline)) static lobe_vec3 chained(float d, lobe_vec3 along, lobe_vec3 o, lobe_vec3 c)
 {
 	const lobe_vec3 p = lobe_vec3_fma(d, along, o);

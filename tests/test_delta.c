@@ -73,7 +73,7 @@ static void test_smooth_conductor(void)
 		worst = larger(worst,
 			       fabs((double)s.weight.b - textbook_fresnel_conductor(c, (double)n.b, (double)k.b)));
 	}
-	/* That of lobe_fresnel_conductor (test_fresnel.c). */
+	/* That of lobe_fresnel_conductor (test_fresnel_conductor.c). */
 	measured("smooth_conductor: weight - F", worst, 60.0 * U);
 }
 

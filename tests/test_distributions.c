@@ -89,8 +89,8 @@ static void add_error(errors *e, double got, double exact, double largest)
 		e->bulk = worse(e->bulk, error);
 }
 
-/* Bounds: closed forms; tables of user-given densities; and of one whose ring is a hundredth of its steepness wide, which is
- * near the resolution of a float. */
+/* Bounds: closed forms; tables of user-given densities; and of one whose ring is a hundredth of its steepness wide,
+ * which is near the resolution of a float. */
 typedef struct {
 	double closed, tabulated, narrow;
 } bounds;
@@ -102,8 +102,8 @@ static double bound_of(const distribution_case *c, bounds b)
 							: b.narrow;
 }
 
-/* bulk: where the value is above 1e-4 of its largest; all: down to 1e-33 of it, where an exponential is that of 76 and more,
- * whose 2 ulp are 2e-5 of the value. */
+/* bulk: where the value is above 1e-4 of its largest; all: down to 1e-33 of it, where an exponential is that of 76 and
+ * more, whose 2 ulp are 2e-5 of the value. */
 static void report(const char *what, const distribution_case *c, errors e, bounds bulk, bounds all)
 {
 	char text[80];
@@ -125,8 +125,8 @@ static void test_density(void)
 			const double r = steepness(c, k);
 			add_error(&e, library_p22(c, r), c->p22(c, r), largest);
 		}
-		/* A cusp at the normal is what a table of tan^2 is worst at. What is next to nothing of a user-given density,
-		 * inside a ring above all, is smoothed away; so is the end of a density that jumps to 0. */
+		/* A cusp at the normal is what a table of tan^2 is worst at. What is next to nothing of a user-given
+		 * density, inside a ring above all, is smoothed away; so is the end of a density that jumps to 0. */
 		const bounds bulk = {2e-6, strcmp(c->name, "exponential") == 0 ? 5e-4 : c->smooth ? 3e-5 : 1e-4, 1e-4};
 		const bounds all = {2e-5, HUGE_VAL, HUGE_VAL};
 		report("density", c, e, bulk, all);

@@ -1,5 +1,6 @@
-/* test_distributions_forms.c - what the distributions of microfacet/distribution.h are to each other: closed forms against
- * tables, the members that are GGX, the limit that is Beckmann, shape invariance; and single precision against double. */
+/* test_distributions_forms.c - what the distributions of microfacet/distribution.h are to each other: closed forms
+ * against tables, the members that are GGX, the limit that is Beckmann, shape invariance; and single precision against
+ * double. */
 #include "distribution_cases.h"
 #include "double_distributions.h"
 #include "measured.h"
@@ -92,8 +93,8 @@ static void test_powers(void)
 	measured("Gamma(x)/Gamma(x + 1/2): relative", ratio, 2e-6);
 }
 
-/* (1 + x)^-e to a few ulp, also where it is 1e-30. Planted: its exponential of e log(1 + x), whose argument alone is off by
- * more. */
+/* (1 + x)^-e to a few ulp, also where it is 1e-30. Planted: its exponential of e log(1 + x), whose argument alone is
+ * off by more. */
 static void test_decay(void)
 {
 	double ulp = 0.0, large = 0.0, planted = 0.0;
@@ -349,7 +350,8 @@ static void test_double(void)
 					     1.0));
 			if (q > 1e-10)
 				tail = worse(tail, fabs((double)lobe_distribution_tail(d, z * z) / q - 1.0));
-			/* Angle between the normals; the last of u is where either may differ by all that is steeper. */
+			/* Angle between the normals; the last of u is where either may differ by all that is
+			 * steeper. */
 			double_distribution_visible(dd, v, ud, m);
 			const lobe_vec3 f =
 				lobe_distribution_visible(d, lobe_vec3_make(1.0f, 0.0f, z), lobe_vec2_make(u[0], u[1]));

@@ -1,5 +1,5 @@
-/* test_distributions_published.c - the published approximations of masking that stand beside the exact one, each with its
- * error; and that the errors people make with the published formulas would be seen. */
+/* test_distributions_published.c - the published approximations of masking that stand beside the exact one, each with
+ * its error; and that the errors people make with the published formulas would be seen. */
 #include "distribution_cases.h"
 #include "measured.h"
 

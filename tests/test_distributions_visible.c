@@ -1,6 +1,6 @@
 /* test_distributions_visible.c - visible and plain normals of every distribution that is chosen at run time
- * (microfacet/distribution.h): their cumulative distributions against quadrature, chi-square of a million samples, order,
- * extremes, and what a wrong table does to all that. */
+ * (microfacet/distribution.h): their cumulative distributions against quadrature, chi-square of a million samples,
+ * order, extremes, and what a wrong table does to all that. */
 #include "distribution_cases.h"
 #include "measured.h"
 #include "support.h"
@@ -243,8 +243,8 @@ static void test_extremes(void)
 
 enum { RING_BINS = 20, PSI_BINS = 16, BINS = RING_BINS * PSI_BINS, SAMPLES = 1000000 };
 
-/* Rings that split what v sees (or, for plain samples, the plane) about evenly: where the table puts them, whether it is
- * right or not. */
+/* Rings that split what v sees (or, for plain samples, the plane) about evenly: where the table puts them, whether it
+ * is right or not. */
 static void ring_edges(const distribution_case *c, lobe_vec3 v, int plain, double *edge)
 {
 	edge[0] = 0.0;

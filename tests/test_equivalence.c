@@ -253,8 +253,8 @@ static size_t extreme_inputs(lobe_uint kind)
 	return total;
 }
 
-/* A million of each lobe: a difference in 3 of a million elements is missed once in twenty times. Every second block asks
- * for subsets of the outputs. The inputs, which cost as much as shading, are the same for all lobes. */
+/* A million of each lobe: a difference in 3 of a million elements is missed once in twenty times. Every second block
+ * asks for subsets of the outputs. The inputs, which cost as much as shading, are the same for all lobes. */
 static void test_random_inputs(void)
 {
 	const size_t count = (size_t)(test_long() ? 4 : 1) << 20, count_apart = test_long() ? count : (size_t)1 << 15;

@@ -1,5 +1,5 @@
-/* test_fallback.c - "opencl,native": whichever OpenCL call fails, once or because the device is lost, results are there and
- * right, nothing is leaked, and it is told that the device was given up. */
+/* test_fallback.c - "opencl,native": whichever OpenCL call fails, once or because the device is lost, results are there
+ * and right, nothing is leaked, and it is told that the device was given up. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

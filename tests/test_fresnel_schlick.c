@@ -1,5 +1,5 @@
-/* test_fresnel_schlick.c - core/fresnel_schlick.h and core/fresnel_artist.h against the exact reflectances that they stand
- * for (textbook.c) and against their definitions in double. */
+/* test_fresnel_schlick.c - core/fresnel_schlick.h and core/fresnel_artist.h against the exact reflectances that they
+ * stand for (textbook.c) and against their definitions in double. */
 #include "lobe/core/fresnel.h"
 #include "lobe/core/fresnel_artist.h"
 #include "lobe/core/fresnel_schlick.h"

@@ -382,8 +382,8 @@ static void test_stretch_invariance(void)
 /* --- visible normals
  * -------------------------------------------------------------------------------------------------- */
 
-/* The last cells of u.y on the side where the cap's point and v add up: slopes of the visible normals against the cap in
- * long double. Planted: the point's distance from the axis as the root of h (2 t - h). */
+/* The last cells of u.y on the side where the cap's point and v add up: slopes of the visible normals against the cap
+ * in long double. Planted: the point's distance from the axis as the root of h (2 t - h). */
 static void test_visible_far_end(void)
 {
 	double off = 0.0, planted = 0.0;

@@ -294,8 +294,9 @@ static void test_d(void)
 	}
 }
 
-/* sigma relative to what does not cancel: v.z is a difference when the view is along the mean plane, v.x and v.y are when
- * the view is along a narrow axis. Far below Beckmann's horizon sigma falls as exp(-cot^2), and errors grow with cot^2. */
+/* sigma relative to what does not cancel: v.z is a difference when the view is along the mean plane, v.x and v.y are
+ * when the view is along a narrow axis. Far below Beckmann's horizon sigma falls as exp(-cot^2), and errors grow with
+ * cot^2. */
 static void test_sigma(void)
 {
 	for (size_t n = 0; n < FIXED; n++) {

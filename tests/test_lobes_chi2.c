@@ -310,8 +310,8 @@ static void measure_all(void)
 			for (size_t k = 0; k < VIEWS; k++) {
 				const test_case *c = case_at(i);
 				const lobe_vec3 wo = view(k);
-				/* A third of the views of each case, so that every view has a third of the cases: all that
-				 * is tested is tested with the same power. */
+				/* A third of the views of each case, so that every view has a third of the cases: all
+				 * that is tested is tested with the same power. */
 				if (!planned(c, wo, in_double) || (!test_long() && (i + k) % 3 != 0))
 					continue;
 				const scene s = scene_make(c, wo, in_double, RIGHT);

@@ -280,8 +280,8 @@ static double carries(const lobe_bsdf *b, int channel, uint32_t stream)
 	return sum;
 }
 
-/* offset of a field of one lobe's struct, and of another that is spoilt with it; channel: the colour that it governs, or -1
- * for all three; is_width: part of the microsurface. */
+/* offset of a field of one lobe's struct, and of another that is spoilt with it; channel: the colour that it governs,
+ * or -1 for all three; is_width: part of the microsurface. */
 typedef struct {
 	const char *name;
 	size_t offset, with;

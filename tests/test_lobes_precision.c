@@ -64,8 +64,8 @@ static double schlick_condition(const test_case *c, double cosine)
 	return worst;
 }
 
-/* A thin film's R and 1 - R are means and differences of waves: what is off by a rounding of the phase is off by so much
- * of the whole, not of what is left. */
+/* A thin film's R and 1 - R are means and differences of waves: what is off by a rounding of the phase is off by so
+ * much of the whole, not of what is left. */
 static double film_on_conductor_condition(const test_case *c, double cosine, lobe_film film, lobe_rgb eta, lobe_rgb k)
 {
 	const lobe_rgb f = lobe_thin_film_conductor_rgb((float)cosine, film, eta, k);
@@ -113,9 +113,9 @@ static const lobe_microsurface *surface_of(const test_case *c)
 	}
 }
 
-/* A linear map's own cancellations: H on the surface of width 1, of whose squared length D is a negative power, and the area
- * of the mean plane, z - mean.w, as each direction sees it; and the logarithm of the beta function, whose error comes
- * with it. undecided: which face of the mean plane is seen hangs on the last bits. */
+/* A linear map's own cancellations: H on the surface of width 1, of whose squared length D is a negative power, and the
+ * area of the mean plane, z - mean.w, as each direction sees it; and the logarithm of the beta function, whose error
+ * comes with it. undecided: which face of the mean plane is seen hangs on the last bits. */
 static double surface_condition(const lobe_microsurface *s, const double o[3], const double i[3], const double h[3],
 				int *undecided)
 {
@@ -127,7 +127,8 @@ static double surface_condition(const lobe_microsurface *s, const double o[3], c
 	const double fx = (double)m->ixx * x + (double)m->ixy * y, fy = (double)m->iyx * x + (double)m->iyy * y;
 	const double big_fx = fabs((double)m->ixx) * big_x + fabs((double)m->ixy) * big_y;
 	const double big_fy = fabs((double)m->iyx) * big_x + fabs((double)m->iyy) * big_y;
-	/* D is a power of 1 + tan^2; other than GGX's it is the exponential of a logarithm, whose error grows with it. */
+	/* D is a power of 1 + tan^2; other than GGX's it is the exponential of a logarithm, whose error grows with
+	 * it. */
 	const lobe_distribution d = s->distribution;
 	const double power = d.ndf == LOBE_NDF_PHONG ? 0.5 * (double)d.exponent + 2.0 : fmax(2.0, (double)d.exponent);
 	const double length2 = fx * fx + fy * fy + hz * hz;
@@ -159,9 +160,9 @@ static double surface_condition(const lobe_microsurface *s, const double o[3], c
 	return sum;
 }
 
-/* A facet's i.m and o.m are differences where it is steep: what they are off by is some u of 1, to be compared with their
- * mean over the facets, of which Lambert's cosine is a measure. A cavity besides divides by them, where they are above
- * 2 z. */
+/* A facet's i.m and o.m are differences where it is steep: what they are off by is some u of 1, to be compared with
+ * their mean over the facets, of which Lambert's cosine is a measure. A cavity besides divides by them, where they are
+ * above 2 z. */
 static double diffuse_condition(const test_case *c, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_microfacet_diffuse p = c->bsdf.as.microfacet_diffuse;
@@ -195,8 +196,8 @@ static conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_
 	const double size = sqrt(textbook_dot(h, h));
 	const double oh = fabs(textbook_dot(o, h)), ih = fabs(textbook_dot(i, h));
 	const double q = h[0] * h[0] / ax2 + h[1] * h[1] / ay2 + h[2] * h[2];
-	/* A quarter of the gradient of log D: of -2 log q, or of -tan^2 - 4 log h.z, whose exponent besides carries its own
-	 * roundings into the result. */
+	/* A quarter of the gradient of log D: of -2 log q, or of -tan^2 - 4 log h.z, whose exponent besides carries its
+	 * own roundings into the result. */
 	double slope = sqrt(h[0] * h[0] / (ax2 * ax2) + h[1] * h[1] / (ay2 * ay2) + h[2] * h[2]) / q;
 	if (c->ndf == TEXTBOOK_BECKMANN) {
 		const double z = fabs(h[2]), gx = h[0] / (ax2 * z * z), gy = h[1] / (ay2 * z * z);

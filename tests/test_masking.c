@@ -1,5 +1,5 @@
-/* test_masking.c - masking and shadowing: weak furnaces, exact albedos, bounds, symmetries and limits of every joint, and
- * the beta function. Known values: Heitz 2014's statements, and quadrature made apart from this library. */
+/* test_masking.c - masking and shadowing: weak furnaces, exact albedos, bounds, symmetries and limits of every joint,
+ * and the beta function. Known values: Heitz 2014's statements, and quadrature made apart from this library. */
 #include "measured.h"
 #include "microsurface_cases.h"
 #include "support.h"
@@ -101,8 +101,8 @@ static double weak_furnace(lobe_microsurface s, double mu, double phi, int wrong
 	return integrate_square(&q, 10);
 }
 
-/* Smith's and the V-cavities', of every distribution, stretched, skewed and, for Smith's also where the mean plane shows
- * its back, tilted: outgoing light is normalised by what is seen. */
+/* Smith's and the V-cavities', of every distribution, stretched, skewed and, for Smith's also where the mean plane
+ * shows its back, tilted: outgoing light is normalised by what is seen. */
 static void test_weak_furnace_is_1(void)
 {
 	static const double mus[] = {1.0, 0.6, 0.2, 0.03};
@@ -245,8 +245,9 @@ static void test_albedo_matches_the_reference_table(void)
 	measured("E(mu, alpha), 39 entries of four digits: off", worst, 6.5e-5);
 }
 
-/* Kelemen's and Neumann's have no masking of one direction. With GGX, alpha 1: D = 1/pi, and G2/(4 mu_o mu_i) is 1/|H|^2 =
- * 1/(2 + 2 o.i) or 1/(4 max): the integral of the latter is 1/4 + mu_o^2/4 - mu_o^2/2 ... done here by sums. */
+/* Kelemen's and Neumann's have no masking of one direction. With GGX, alpha 1: D = 1/pi, and G2/(4 mu_o mu_i) is
+ * 1/|H|^2 = 1/(2 + 2 o.i) or 1/(4 max): the integral of the latter is 1/4 + mu_o^2/4 - mu_o^2/2 ... done here by
+ * sums. */
 static double sum_over_hemisphere(double mu, int neumann)
 {
 	const int n = 2000, turns = 400;
@@ -307,8 +308,8 @@ static double g1(lobe_microsurface s, lobe_vec3 o)
 	return (double)a.z / (double)(a.z + a.hides);
 }
 
-/* G2 <= min(G1), = for i = o where directions are correlated; symmetric; between the separable and the least; V-cavities
- * and the across forms too. */
+/* G2 <= min(G1), = for i = o where directions are correlated; symmetric; between the separable and the least;
+ * V-cavities and the across forms too. */
 static void test_joints_keep_their_bounds(void)
 {
 	double above = 0.0, asymmetry = 0.0, same = 0.0, order = 0.0, cavity_above = 0.0, across_above = 0.0;
@@ -477,8 +478,8 @@ static lobe_seen seen_z(float z)
 	return d;
 }
 
-/* G1 + G1 - 1 of V-cavities across the surface, in long double of the same areas, where one direction sees all of the side or
- * nearly so, and the other little. Planted: as it is written. */
+/* G1 + G1 - 1 of V-cavities across the surface, in long double of the same areas, where one direction sees all of the
+ * side or nearly so, and the other little. Planted: as it is written. */
 static void test_vcavities_across(void)
 {
 	double off = 0.0, planted = 0.0;
@@ -506,8 +507,8 @@ static void test_vcavities_across(void)
 	TEST_ASSERT_TRUE(planted > 1e-3);
 }
 
-/* Direction-correlated masking of nearly opposite azimuths is 1/14.85 of the lesser G1, and a product: the weight of the
- * lesser as a number of its own. Against long double of the same areas. */
+/* Direction-correlated masking of nearly opposite azimuths is 1/14.85 of the lesser G1, and a product: the weight of
+ * the lesser as a number of its own. Against long double of the same areas. */
 static void test_direction_correlated_keeps_its_digits(void)
 {
 	double off = 0.0;

@@ -7,7 +7,8 @@
  *
  * The field is a sum of waves of random directions, lengths and phases: Gaussian by the central limit theorem over many
  * realisations, each with slopes of variance 1/2, the surface of width 1. Its mapped version is built from the map of
- * points p -> M p alone: other wave numbers and a plane; the library's map only says from where the first is to be seen. */
+ * points p -> M p alone: other wave numbers and a plane; the library's map only says from where the first is to be
+ * seen. */
 #include "lobe/microfacet/linear.h"
 
 #include "leadr.h"
@@ -104,14 +105,15 @@ typedef struct {
 	double facing_in[BINS], seen_in[BINS];
 } view;
 
-/* w: unit, in the plane of the cut, towards its far end. Points too near the end to be hidden by what lies beyond, which
- * is not there, are left out. scale: of slopes, two bins each. */
+/* w: unit, in the plane of the cut, towards its far end. Points too near the end to be hidden by what lies beyond,
+ * which is not there, are left out. scale: of slopes, two bins each. */
 static view look(const double height[POINTS], double step, double across, double z, double scale)
 {
 	view r;
 	memset(&r, 0, sizeof r);
 	const double cot = z / across;
-	/* Heights are within 5 deviations of the mean plane; the sight rises above that after at most 2/3 of the cut. */
+	/* Heights are within 5 deviations of the mean plane; the sight rises above that after at most 2/3 of the
+	 * cut. */
 	double top = -HUGE_VAL;
 	int used = 0;
 	for (int j = POINTS - 2; j >= 0; j--) {
@@ -220,7 +222,8 @@ static void measure(size_t which, sums result[WAYS], double v[3], double w[3])
 		cut(&f, x, y, dx, dy, STEP, height);
 		seen = look(height, STEP, across, v[2], 1.0);
 		gather(&result[BASE], &seen);
-		/* Slopes of the mapped field are 1/stretch of the base's along the cut, seen from the mapped direction. */
+		/* Slopes of the mapped field are 1/stretch of the base's along the cut, seen from the mapped
+		 * direction. */
 		cut(&g, mx, my, ex, ey, STEP * stretch, height);
 		seen = look(height, STEP * stretch, mapped_across, w[2], 1.0 / stretch);
 		gather(&result[IMAGE], &seen);

@@ -1,5 +1,5 @@
-/* The integral over diffuse facets (Heitz 2014, eq. 31) against adaptive quadrature in double of the textbook's D, Lambda
- * and dot products: that of eval's fixed facets, and that of the unbiased one. */
+/* The integral over diffuse facets (Heitz 2014, eq. 31) against adaptive quadrature in double of the textbook's D,
+ * Lambda and dot products: that of eval's fixed facets, and that of the unbiased one. */
 #include "lobe/shading.h"
 #include "measured.h"
 #include "quadrature.h"

@@ -352,8 +352,8 @@ static void test_every_size(void)
 	}
 }
 
-/* A batch whose results go past the caches, on two threads, against itself in parts that do not; arrays that are aligned
- * to cache lines and arrays that are not. */
+/* A batch whose results go past the caches, on two threads, against itself in parts that do not; arrays that are
+ * aligned to cache lines and arrays that are not. */
 static void test_large(void)
 {
 	const size_t n = LOBE_NATIVE_STREAM / 4 / LOBE_OUT_COUNT + 12345, words = n + 32;

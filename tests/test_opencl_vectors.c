@@ -1,6 +1,6 @@
-/* test_opencl_vectors.c - PoCL's kernels are vectorised, in the widest registers that there are: read off the machine code
- * that it leaves in its cache. A branch or a call that somebody puts into a lobe would make it shade one element at a
- * time, and its own choice for AVX-512 would be vectors of half the width (cl/kernels.cl). */
+/* test_opencl_vectors.c - PoCL's kernels are vectorised, in the widest registers that there are: read off the machine
+ * code that it leaves in its cache. A branch or a call that somebody puts into a lobe would make it shade one element
+ * at a time, and its own choice for AVX-512 would be vectors of half the width (cl/kernels.cl). */
 #define _XOPEN_SOURCE 700
 #include <ftw.h>
 #include <stdio.h>
@@ -20,8 +20,8 @@ static const char *wide, *half;    /* registers: the widest, and what the compil
 static const char *kernel_at_hand; /* the beginning of names; nftw hands its function no argument of ours */
 static int kernels, not_vectorised;
 
-/* A kernel is vectorised when it is mostly done in wide registers. The loop over what is left of a share is there too, and
- * is scalar. */
+/* A kernel is vectorised when it is mostly done in wide registers. The loop over what is left of a share is there too,
+ * and is scalar. */
 static int look_at(const char *path, const struct stat *s, int type, struct FTW *where)
 {
 	const char *const name = strstr(path, kernel_at_hand);

@@ -1,6 +1,7 @@
-/* test_recommend.c - lobe/recommend.h: the light's shape is a density that its draws follow; what is recommended is about as
- * efficient as the best of all techniques by variances measured from their own samples; and its expected deviation is
- * theirs. How it does over the whole map of roughness, angle and light: `make report`, section strategies. */
+/* test_recommend.c - lobe/recommend.h: the light's shape is a density that its draws follow; what is recommended is
+ * about as efficient as the best of all techniques by variances measured from their own samples; and its expected
+ * deviation is theirs. How it does over the whole map of roughness, angle and light: `make report`, section
+ * strategies. */
 #include "measured.h"
 #include "support.h"
 
@@ -43,8 +44,8 @@ static lobe_light_shape shape(int i)
 	}
 }
 
-/* Boxes of equal area on the sphere, the axis of the light for pole: the density's integral over each (midpoints of a fine
- * grid) against the share of draws. crooked: draws of another shape, which has to show. */
+/* Boxes of equal area on the sphere, the axis of the light for pole: the density's integral over each (midpoints of a
+ * fine grid) against the share of draws. crooked: draws of another shape, which has to show. */
 enum { RINGS = 12, SECTORS = 8, BOXES = RINGS * SECTORS, FINE = 60 };
 
 static double misfit(lobe_light_shape drawn, lobe_light_shape of, uint32_t stream, double *integral)

@@ -1,5 +1,5 @@
-/* test_recommend_opencl.c - lobe/recommend.h as OpenCL C: the same answers, to the bit, as in C, for random surfaces, views
- * and lights. */
+/* test_recommend_opencl.c - lobe/recommend.h as OpenCL C: the same answers, to the bit, as in C, for random surfaces,
+ * views and lights. */
 #include "lobe/lobe.h"
 #include "lobe/recommend.h"
 

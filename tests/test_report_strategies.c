@@ -1,5 +1,5 @@
-/* test_report_strategies.c - the report's section on strategies: estimates compiled for one strategy are those chosen at run
- * time, variances as integrals are those of the samples, and who is unbeaten where, on a map made by hand. */
+/* test_report_strategies.c - the report's section on strategies: estimates compiled for one strategy are those chosen
+ * at run time, variances as integrals are those of the samples, and who is unbeaten where, on a map made by hand. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
@@ -84,8 +84,8 @@ static void test_variances_are_those_of_samples(void)
 
 enum { CELLS = 5 };
 
-/* All strategies have variance 1 in 1 s, but: cell 0 the cap 1.01 times less; 1 V-cavity 2 times less; 2 cosine 10 times less;
- * 3 no light arrives; 4 the default twice as good. The cap takes 1.5 times as long. */
+/* All strategies have variance 1 in 1 s, but: cell 0 the cap 1.01 times less; 1 V-cavity 2 times less; 2 cosine 10
+ * times less; 3 no light arrives; 4 the default twice as good. The cap takes 1.5 times as long. */
 static void by_hand(rank_map *m, rank_cell cell[CELLS])
 {
 	memset(m, 0, sizeof *m);

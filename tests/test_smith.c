@@ -2,8 +2,8 @@
  * directions that the mean plane faces away from.
  *
  * Bins are of facets of the standard surface (1/sqrt(1 + r^2) or its like, azimuth), whose probabilities come from
- * leadr.c alone: under the tail x^2 of radius r the standard surface has the area dx^2 dphi/(2 pi), of which max(0, v.n)
- * is seen from v. */
+ * leadr.c alone: under the tail x^2 of radius r the standard surface has the area dx^2 dphi/(2 pi), of which max(0,
+ * v.n) is seen from v. */
 #include "lobe/microfacet/smith.h"
 
 #include "leadr.h"
@@ -69,8 +69,8 @@ static double facing(const double v[3], double x, double y)
 	return x * v[2] + rx * (v[0] * cos(2.0 * PI * y) + v[1] * sin(2.0 * PI * y));
 }
 
-/* Beckmann's radius under the tail x^2 is sqrt(-ln x^2), and not smooth at 0 nor at 1: bins by GGX's radius instead, with
- * the ratio of the two densities. */
+/* Beckmann's radius under the tail x^2 is sqrt(-ln x^2), and not smooth at 0 nor at 1: bins by GGX's radius instead,
+ * with the ratio of the two densities. */
 static double density(void *context, double x, double y)
 {
 	const histogram *h = context;

@@ -1,6 +1,6 @@
-/* test_stability.c - stiff and extreme corners of every lobe: what must never come out is counted, errors are held to what
- * the inputs allow, and the sweep finds a defect that is planted. The report's section "stability" (make report) is the
- * same sweep at length, with its plots. */
+/* test_stability.c - stiff and extreme corners of every lobe: what must never come out is counted, errors are held to
+ * what the inputs allow, and the sweep finds a defect that is planted. The report's section "stability" (make report)
+ * is the same sweep at length, with its plots. */
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -50,7 +50,8 @@ static void *count_batches(void *context)
 
 enum { THREADS = 2 };
 
-/* In make test-long 10^8 elements and more, each an eval, a pdf and a sample; lobes that choose at run time take a part. */
+/* In make test-long 10^8 elements and more, each an eval, a pdf and a sample; lobes that choose at run time take a
+ * part. */
 static uint64_t batches_of(lobe_uint kind)
 {
 	if (kind == LOBE_KIND_MICROFACET_DIFFUSE)
@@ -99,7 +100,8 @@ static void test_nothing_that_must_not_come_out(void)
 
 /* --- errors over the floor ------------------------------------------------------------------------------------------------ */
 
-/* The sweep over one lobe, or over a copy of it with a defect. references: 1 adds up what the textbook has, 0 the rest. */
+/* The sweep over one lobe, or over a copy of it with a defect. references: 1 adds up what the textbook has, 0 the
+ * rest. */
 static void sweep(stability_lobe lobe, lobe_uint kind, uint64_t cases, stability_verb verbs, stability_tally tally[2])
 {
 	for (uint64_t n = 0; n < cases; n++) {
@@ -112,8 +114,8 @@ static void sweep(stability_lobe lobe, lobe_uint kind, uint64_t cases, stability
 	}
 }
 
-/* 99.99 % of all results within 16 floors, reflectances counted as their headers promise them (stability.h); what is beyond
- * is counted, and of all of it the sweep can say why. */
+/* 99.99 % of all results within 16 floors, reflectances counted as their headers promise them (stability.h); what is
+ * beyond is counted, and of all of it the sweep can say why. */
 static void test_errors_stay_near_the_floor(void)
 {
 	static stability_tally tally[2];
@@ -178,8 +180,8 @@ static void found(const char *name, stability_lobe lobe, int by_error)
 	}
 }
 
-/* As the library has it: nothing; with D from 1 - cos^2: errors; with Lambda from the tangent that 1 - cos^2 gives: no number
- * where a direction is longer than 1 by an ulp. */
+/* As the library has it: nothing; with D from 1 - cos^2: errors; with Lambda from the tangent that 1 - cos^2 gives: no
+ * number where a direction is longer than 1 by an ulp. */
 static void test_planted_defects_are_found(void)
 {
 	static stability_tally tally[2];

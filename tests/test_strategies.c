@@ -31,8 +31,8 @@ static lobe_microfacet_conductor mirror(lobe_microsurface s, lobe_uint strategy)
 
 /* --- samples against the density ----------------------------------------------------------------------------------------- */
 
-/* Bins are those of the facet between wo and wi, in coordinates in which its distribution is flat. wrong: the density that
- * samples are compared with is that of another lobe. */
+/* Bins are those of the facet between wo and wi, in coordinates in which its distribution is flat. wrong: the density
+ * that samples are compared with is that of another lobe. */
 enum { SIDE = 12, BINS = SIDE * SIDE + 1, REJECTED = SIDE * SIDE };
 
 typedef struct {
@@ -303,7 +303,8 @@ static void test_every_strategy_has_the_same_mean(void)
 			view v = make_view(s, LOBE_STRATEGY_VISIBLE, views[w][0], views[w][1]);
 			const double exact = albedo(&v, &error);
 			for (lobe_uint strategy = 0; strategy < STRATEGIES; strategy++) {
-				/* Hardly a uniform direction hits a narrow lobe; of V-cavities nothing is seen from behind. */
+				/* Hardly a uniform direction hits a narrow lobe; of V-cavities nothing is seen from
+				 * behind. */
 				const int blind =
 					strategy == LOBE_STRATEGY_VCAVITY && !(lobe_see(s, v.wo, 1.0f).z > 0.0f);
 				if (blind || (k == 0 && lobe_strategy_of_directions(strategy)))
@@ -349,7 +350,8 @@ static double exact_variance(const view *v)
 	return integrate_square(&q, SIDE) - mean * mean;
 }
 
-/* F = 1: rejected share and variance of the weight, by quadrature and (plain NDF) plain sums made apart from this library. */
+/* F = 1: rejected share and variance of the weight, by quadrature and (plain NDF) plain sums made apart from this
+ * library. */
 static void test_known_variances(void)
 {
 	static const struct {

@@ -1,4 +1,5 @@
-/* test_strides.c - batches in arrays of structs: the bits of packed ones, nothing else touched, overlap decided exactly. */
+/* test_strides.c - batches in arrays of structs: the bits of packed ones, nothing else touched, overlap decided
+ * exactly. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
 #include <string.h>

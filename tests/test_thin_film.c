@@ -57,8 +57,8 @@ static double opd_of(stack s)
 /* --- Airy ------------------------------------------------------------------------------------------------------- */
 
 /* Fresnel's amplitudes carry up to 40 roundings (test_fresnel.c), and R moves by at most twice what either moves. The
- * phase 2 pi OPD/wavelength carries 5 (g 3, products 2), of itself; R moves by no more than 1 for each radian, unless it
- * is a sharp resonance: slope is its derivative by the logarithm of the wavelength. */
+ * phase 2 pi OPD/wavelength carries 5 (g 3, products 2), of itself; R moves by no more than 1 for each radian, unless
+ * it is a sharp resonance: slope is its derivative by the logarithm of the wavelength. */
 static void test_airy_against_complex(void)
 {
 	double worst[2] = {0}, sum = 0.0, ratio[2] = {0}, per_wave = 0.0;
@@ -150,8 +150,8 @@ static void test_airy_limits(void)
 			 1e-12f);
 }
 
-/* Light from inside meets the layers in the other order, and is reflected as much at the angle it is refracted to; beyond
- * the critical angle wholly, through whatever film. */
+/* Light from inside meets the layers in the other order, and is reflected as much at the angle it is refracted to;
+ * beyond the critical angle wholly, through whatever film. */
 static void test_from_inside_it_is_the_same(void)
 {
 	double worst = 0.0, total = 0.0;
@@ -344,8 +344,8 @@ static void test_rgb_limits(void)
 	measured("RGB: outside of [0, 1]", outside, 0.0);
 }
 
-/* A film so dense that both its faces reflect nearly all is a resonator of index/4 bounces, and none at thickness 0: the
- * roundings of a series as long as that stay those of a few terms. */
+/* A film so dense that both its faces reflect nearly all is a resonator of index/4 bounces, and none at thickness 0:
+ * the roundings of a series as long as that stay those of a few terms. */
 static void test_rgb_of_dense_films(void)
 {
 	double dense = 0.0, densest = 0.0;

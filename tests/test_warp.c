@@ -150,8 +150,8 @@ static void test_cap_domain(void)
 	measured("cap: 1 - z - height", below, 1.0 * U);
 }
 
-/* Where the cap is nearly the whole sphere and u.y in its last cells, against the map in long double: what is left of the
- * sphere below a point is small. Planted: that as a difference of what is above. */
+/* Where the cap is nearly the whole sphere and u.y in its last cells, against the map in long double: what is left of
+ * the sphere below a point is small. Planted: that as a difference of what is above. */
 static void test_cap_far_end(void)
 {
 	double off = 0.0, planted = 0.0;

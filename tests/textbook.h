@@ -23,8 +23,8 @@ double textbook_fresnel(double c, double eta);
 double textbook_fresnel_conductor(double c, double n, double k);
 
 /* Reflectance of a film of index nf, d thick, on a base n + ik, seen from a medium of index n0 at cosine c in it; d and
- * the vacuum wavelength in one unit. Fresnel's amplitudes in complex numbers, Airy's sum (Born and Wolf, 1.6.4, eq. 57):
- * also where a film reflects totally. */
+ * the vacuum wavelength in one unit. Fresnel's amplitudes in complex numbers, Airy's sum (Born and Wolf, 1.6.4, eq.
+ * 57): also where a film reflects totally. */
 double textbook_airy(double c, double n0, double nf, double d, double n, double k, double wavelength);
 
 /* f |cos theta_i| of a rough conductor: F D G2/(4 cos theta_o), height-correlated (Heitz 2014, eq. 99). */

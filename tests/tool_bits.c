@@ -2,8 +2,8 @@
  *
  *	tool_bits DEVICE
  *
- * prints, for each case of each lobe, a 64-bit hash over the outputs of 80 k random and all extreme inputs (a part of both for
- * the slowest lobe). */
+ * prints, for each case of each lobe, a 64-bit hash over the outputs of 80 k random and all extreme inputs (a part of
+ * both for the slowest lobe). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* figures.h - the figures that a reader of the microfacet papers would look for, drawn from the library's own functions.
+/* figures.h - the figures that a reader of the microfacet papers would look for, drawn from the library's own
+ * functions.
  *
  *	make figures	writes out/figures/<figure>.png, and the numbers of each curve beside it as <figure>.csv
  *

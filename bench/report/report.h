@@ -1,15 +1,16 @@
 /* report.h - what a study of `make report` is made of: units of work whose rows are kept, and a section of the page.
  *
  * A study measures in units that do not depend on each other or on the order in which they run: each appends rows to a
- * CSV, and draws its random numbers from counters, so that the rows are the same whatever the number of threads. A unit's
- * rows are kept in out/report/data/<study>/ under a key of all that they follow from - the library's source, that of the
- * section (bench/report/<section>*) and what sections share (units.c), the settings, and for timings the machine - so
- * that a run does only what is not there yet, and an interrupted one goes on where it stopped. When all units are there
- * the rows become out/report/<study>.csv, and the section is written from them alone.
+ * CSV, and draws its random numbers from counters, so that the rows are the same whatever the number of threads. A
+ * unit's rows are kept in out/report/data/<study>/ under a key of all that they follow from - the library's source,
+ * that of the section (bench/report/<section>*) and what sections share (units.c), the settings, and for timings the
+ * machine - so that a run does only what is not there yet, and an interrupted one goes on where it stopped. When all
+ * units are there the rows become out/report/<study>.csv, and the section is written from them alone.
  *
  *	build/bench/report [--quick] [--threads N] [--only SECTION]	the page is out/report/report.md
  *
- * A new section: bench/report/<section>*.c with its `report_section`, a line in sections.c, and bench/report/<plot>.gp. */
+ * A new section: bench/report/<section>*.c with its `report_section`, a line in sections.c, and
+ * bench/report/<plot>.gp. */
 #ifndef LOBE_BENCH_REPORT_H
 #define LOBE_BENCH_REPORT_H
 
@@ -33,8 +34,8 @@ typedef struct {
 	int timed;           /* measures time: its units run one after another on a machine that is otherwise idle */
 	/* quick: the report in minutes instead of an hour. Fewer samples and cases, the same questions. */
 	size_t (*units)(int quick);
-	/* Appends the rows of unit 0 .. units(quick) - 1. Called from several threads at once, unless timed. Not 0: failed,
-	 * after a message on stderr. */
+	/* Appends the rows of unit 0 .. units(quick) - 1. Called from several threads at once, unless timed. Not 0:
+	 * failed, after a message on stderr. */
 	int (*run)(int quick, size_t unit, report_rows *rows);
 	/* NULL, or what rows follow from besides: files that the user names, say. */
 	const char *(*settings)(int quick);
@@ -52,7 +53,8 @@ double report_number(const report_table *table, size_t row, const char *column);
 
 typedef struct report_page report_page;
 
-/* A line of the summary, at the page's top: what a reader would act on, with its figure. Its numbers come from the rows. */
+/* A line of the summary, at the page's top: what a reader would act on, with its figure. Its numbers come from the
+ * rows. */
 void report_finding(report_page *page, const char *format, ...) REPORT_PRINTF(2, 3);
 
 /* Markdown in the section. */

@@ -8,8 +8,8 @@
 #include "stability.h"
 #include "support.h"
 
-/* Where the simplex is: factors on the tangent of wo, on the slope of the facet and on each parameter (eta's distance from
- * 1), as logarithms, and turns of the two about the normal. */
+/* Where the simplex is: factors on the tangent of wo, on the slope of the facet and on each parameter (eta's distance
+ * from 1), as logarithms, and turns of the two about the normal. */
 enum { ANGLES = 4, DIMENSIONS_MAX = ANGLES + CASE_PARAMETERS };
 
 typedef struct {

@@ -1,5 +1,5 @@
-/* stability_forms.c - formulas as books and engines print them, in single precision, beside the library's; and two lobes with
- * a defect made of them. */
+/* stability_forms.c - formulas as books and engines print them, in single precision, beside the library's; and two
+ * lobes with a defect made of them. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* stability_maps.c - the studies behind the plots: errors and floors over width and angle, and the library's formulas beside
- * those of the textbooks over what makes these fail. */
+/* stability_maps.c - the studies behind the plots: errors and floors over width and angle, and the library's formulas
+ * beside those of the textbooks over what makes these fail. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -112,8 +112,8 @@ static int outside(lobe_uint kind, const long double *x)
 	return kind == LOBE_KIND_IRIDESCENT_DIELECTRIC && x[6 + 3] < (x[6 + 4] < 1.0L ? x[6 + 4] : 1.0L);
 }
 
-/* A tilted surface that shows less of itself than a float can say: of widths of Beckmann's, all of it hides behind itself.
- * There is nothing to divide by, and results are 0. */
+/* A tilted surface that shows less of itself than a float can say: of widths of Beckmann's, all of it hides behind
+ * itself. There is nothing to divide by, and results are 0. */
 static int is_invisible(const stability_case *c, const lobe_bsdf *b, const float *wi)
 {
 	const lobe_real least = 1e-18f, side = c->wo[2] > 0.0f ? 1.0f : -1.0f;
@@ -222,7 +222,8 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 	}
 	r.defined = 1;
 	r.value = lobe(c, verb);
-	/* Steeply tilted surfaces cancel in long double too: no case is blamed on the library by fewer than 113 bits. */
+	/* Steeply tilted surfaces cancel in long double too: no case is blamed on the library by fewer than 113
+	 * bits. */
 	if (textbook && fabsl((long double)r.value - exact) > 4.0L * sqrtl(directions + parameters))
 		exact = stability_exacter(q, x);
 	r.exact = (double)exact;
@@ -284,8 +285,8 @@ static int facet_is_undetermined(const stability_case *c)
 	return r.defined && is_undetermined(&r);
 }
 
-/* Answers above and below the value, at inputs moved all together by up to four half ulps: the answer is continuous, so it
- * is the value in between. */
+/* Answers above and below the value, at inputs moved all together by up to four half ulps: the answer is continuous, so
+ * it is the value in between. */
 static int is_bent(const stability_case *c, stability_verb verb, double value)
 {
 	enum { MOVES = 500, HALF_ULPS = 4, STREAM = 7700 };
@@ -310,8 +311,9 @@ static int is_bent(const stability_case *c, stability_verb verb, double value)
 	return above && below;
 }
 
-/* Directions are up to four ulp off unit. The textbook takes them as they are: whether the value is within the limit of what
- * lies between its answers to them, to wo, wi or both made unit, and to the cosine that wo would have if it were. */
+/* Directions are up to four ulp off unit. The textbook takes them as they are: whether the value is within the limit of
+ * what lies between its answers to them, to wo, wi or both made unit, and to the cosine that wo would have if it
+ * were. */
 static int is_length(const stability_case *c, stability_verb verb, const stability_result *r)
 {
 	enum { WO_UNIT = 1, WI_UNIT = 2, COSINE_UNIT = 4, READINGS = 8 };

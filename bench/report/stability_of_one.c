@@ -1,4 +1,5 @@
-/* stability_of_one.c - answers asked again with a reflectance, a cosine or a point of the sphere off by a rounding of 1. */
+/* stability_of_one.c - answers asked again with a reflectance, a cosine or a point of the sphere off by a rounding of
+ * 1. */
 #include "stability_of_one.h"
 
 #include <math.h>
@@ -14,7 +15,8 @@ static void take(stability_of_one *most, double size, stability_class cause)
 	}
 }
 
-/* Cosines of 1 in the areas that the sum is divided by, and the sum, which is meant for parts of the smooth surface's value. */
+/* Cosines of 1 in the areas that the sum is divided by, and the sum, which is meant for parts of the smooth surface's
+ * value. */
 static void diffuse(stability_of_one *most, const stability_case *c, stability_question q, const long double *x)
 {
 	const lobe_microsurface s = stability_bsdf(c).as.microfacet_diffuse.surface;
@@ -30,8 +32,8 @@ static void diffuse(stability_of_one *most, const stability_case *c, stability_q
 	take(most, smooth * 0x1p-24, STABILITY_FACETS);
 }
 
-/* The directions of the same facet whose cosine to it is another by delta; e: far index over near one as wo sees it. 0 where
- * there are none. */
+/* The directions of the same facet whose cosine to it is another by delta; e: far index over near one as wo sees it. 0
+ * where there are none. */
 static int nudged(const long double *x, long double e, long double delta, long double *y)
 {
 	const long double side = x[2] > 0.0L ? 1.0L : -1.0L;
@@ -79,8 +81,8 @@ static double cosine_of(const long double *x, long double e)
 	return length2 > 0.0L ? (double)fminl(fabsl(along) / sqrtl(length2), 1.0L) : 1.0;
 }
 
-/* How often a wave goes to and fro in a film on glass before it is spent, by the amplitudes across the plane of incidence; c:
- * cosine on the near side, e: far index over near. */
+/* How often a wave goes to and fro in a film on glass before it is spent, by the amplitudes across the plane of
+ * incidence; c: cosine on the near side, e: far index over near. */
 static double bounces(double c, double e, double index, double base)
 {
 	const double thin2 = e < 1.0 ? 1.0 - (1.0 - c * c) / (e * e) : c * c;
@@ -91,8 +93,8 @@ static double bounces(double c, double e, double index, double base)
 	return 1.0 / (1.0 - r12 * r23);
 }
 
-/* Films have GGX's surface and masking: what is left of an answer over that of a white one is the film's share, of a weight
- * over the mean share. Over a metal a film of index n resonates over about n/4 bounces. */
+/* Films have GGX's surface and masking: what is left of an answer over that of a white one is the film's share, of a
+ * weight over the mean share. Over a metal a film of index n resonates over about n/4 bounces. */
 static void film(stability_of_one *most, const stability_case *c, stability_question q, const long double *x)
 {
 	const int glass = c->kind == LOBE_KIND_IRIDESCENT_DIELECTRIC;
@@ -134,8 +136,8 @@ static void film(stability_of_one *most, const stability_case *c, stability_ques
 	     STABILITY_INTERFERENCE);
 }
 
-/* Glass of a surface that the textbook does not have: the facet and what it reflects are the same on a surface that it has,
- * by the ratios of its answers. Weights have no reflectance, as the event's share is that of the light. */
+/* Glass of a surface that the textbook does not have: the facet and what it reflects are the same on a surface that it
+ * has, by the ratios of its answers. Weights have no reflectance, as the event's share is that of the light. */
 static void glass(stability_of_one *most, const stability_case *c, stability_question q, const long double *x)
 {
 	long double known[STABILITY_INPUTS], moved = 0.0L;

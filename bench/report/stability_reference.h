@@ -1,11 +1,12 @@
-/* stability_reference.h - exact answers for stability.h: the textbook in two wide types, and the library's double build for
- * what the textbook does not have. */
+/* stability_reference.h - exact answers for stability.h: the textbook in two wide types, and the library's double build
+ * for what the textbook does not have. */
 #ifndef LOBE_BENCH_STABILITY_REFERENCE_H
 #define LOBE_BENCH_STABILITY_REFERENCE_H
 
 #include "stability.h"
 
-/* wo, wi (for STABILITY_DIRECTION u) and parameters in one array, so that each can be moved: x[0..2], x[3..5], x[6..]. */
+/* wo, wi (for STABILITY_DIRECTION u) and parameters in one array, so that each can be moved: x[0..2], x[3..5],
+ * x[6..]. */
 enum { STABILITY_INPUTS = 6 + CASE_PARAMETERS };
 
 long double stability_exact(stability_question q, const long double x[STABILITY_INPUTS]);

@@ -9,8 +9,8 @@
 enum { STABILITY_BINS = 512 };
 int stability_bin(double ratio);
 
-/* Results of one lobe, verb and reference. cases: asked; compared: where not both are 0; above: beyond 16 floors, and why.
- * bins: of what is neither undetermined nor tiny, which go to bin 0. */
+/* Results of one lobe, verb and reference. cases: asked; compared: where not both are 0; above: beyond 16 floors, and
+ * why. bins: of what is neither undetermined nor tiny, which go to bin 0. */
 typedef struct {
 	unsigned long cases, compared, non_finite, negative, above, classes[STABILITY_CLASSES]; /* 0: none of them */
 	unsigned long bins[STABILITY_BINS], bins_of_one[STABILITY_BINS];

@@ -1,24 +1,24 @@
-/* stability_textbook.h - lobes as their papers print them, in one wide type. A template without a guard: included once for
- * each type by stability_reference.c, with
+/* stability_textbook.h - lobes as their papers print them, in one wide type. A template without a guard: included once
+ * for each type by stability_reference.c, with
  *
  *	REAL			the type
  *	REAL_(name)		name with the type's suffix
  *	REAL_SQRT, REAL_EXP, REAL_ERFC, REAL_SIN, REAL_COS, REAL_FABS, REAL_PI
  *
  * Nothing here is the library's code or algebra: normalised half vectors, slopes, tangents, Lambda, complex roots, and
- * cancellation wherever the papers have it, which is what the type's digits are for. tests/textbook.h is the same idea in
- * double, for what does not cancel.
+ * cancellation wherever the papers have it, which is what the type's digits are for. tests/textbook.h is the same idea
+ * in double, for what does not cancel.
  *
- * Directions come as they are, not quite unit: the half vector is normalised, as the papers say, they are not. So what a
- * rounding of a direction does to the answer, its length included, is a property of these formulas that
- * stability_measure.c finds by asking them again. Cosines above 1 count as 1, but to a rough metal, whose formula goes on; of
- * a reflection the cosine to the facet is the
- * mean of o.m and i.m, which for a pair of directions of not quite the same length are not one, and at grazing angles not
- * even near. */
+ * Directions come as they are, not quite unit: the half vector is normalised, as the papers say, they are not. So what
+ * a rounding of a direction does to the answer, its length included, is a property of these formulas that
+ * stability_measure.c finds by asking them again. Cosines above 1 count as 1, but to a rough metal, whose formula goes
+ * on; of a reflection the cosine to the facet is the mean of o.m and i.m, which for a pair of directions of not quite
+ * the same length are not one, and at grazing angles not even near. */
 
 static REAL REAL_(dot)(const REAL a[3], const REAL b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Reflectance of a dielectric; c: cosine on the near side, eta: far index over near index. Walter et al. 2007, eq. 22. */
+/* Reflectance of a dielectric; c: cosine on the near side, eta: far index over near index. Walter et al. 2007, eq.
+ * 22. */
 static REAL REAL_(fresnel)(REAL c, REAL eta)
 {
 	const REAL g2 = eta * eta - 1 + c * c;
@@ -42,8 +42,8 @@ static REAL REAL_(ratio2)(REAL ar, REAL ai, REAL br, REAL bi)
 	return ((ar - br) * (ar - br) + (ai - bi) * (ai - bi)) / ((ar + br) * (ar + br) + (ai + bi) * (ai + bi));
 }
 
-/* Reflectance of a conductor n + ik: the mean of |r_s|^2 and |r_p|^2, with the complex N cos theta_t = sqrt(N^2 - sin^2) in
- * the first quadrant. */
+/* Reflectance of a conductor n + ik: the mean of |r_s|^2 and |r_p|^2, with the complex N cos theta_t = sqrt(N^2 -
+ * sin^2) in the first quadrant. */
 static REAL REAL_(fresnel_conductor)(REAL c, REAL n, REAL k)
 {
 	const REAL re = n * n - k * k - (1 - c * c), im = 2 * n * k;
@@ -71,8 +71,8 @@ typedef struct {
 	int beckmann;
 } REAL_(surface);
 
-/* D(m) = P22(-m.x/m.z, -m.y/m.z)/m.z^4 with P22 that of A^-1 (slope - mean), over |det A|: Heitz 2014, section 5.3, eqs. 80
- * and 85 where A is diagonal; Dupuy et al. 2013. */
+/* D(m) = P22(-m.x/m.z, -m.y/m.z)/m.z^4 with P22 that of A^-1 (slope - mean), over |det A|: Heitz 2014, section 5.3,
+ * eqs. 80 and 85 where A is diagonal; Dupuy et al. 2013. */
 static REAL REAL_(d)(REAL_(surface) s, const REAL m[3])
 {
 	if (m[2] <= 0)
@@ -85,9 +85,9 @@ static REAL REAL_(d)(REAL_(surface) s, const REAL m[3])
 	return p22 / (REAL_FABS(det) * m[2] * m[2] * m[2] * m[2]);
 }
 
-/* What a direction sees: z, the mean plane's area (0 from its back), and h = |z| Lambda, that of the facets which face away.
- * Lambda = (sqrt(1 + 1/a^2) - 1)/2, or exp(-a^2)/(2 a sqrt pi) - erfc(a)/2, with a the cotangent over the width in the
- * direction (Heitz 2014, eqs. 86 and 83), both times |z|. */
+/* What a direction sees: z, the mean plane's area (0 from its back), and h = |z| Lambda, that of the facets which face
+ * away. Lambda = (sqrt(1 + 1/a^2) - 1)/2, or exp(-a^2)/(2 a sqrt pi) - erfc(a)/2, with a the cotangent over the width
+ * in the direction (Heitz 2014, eqs. 86 and 83), both times |z|. */
 typedef struct {
 	REAL z, h;
 } REAL_(seen);
@@ -108,8 +108,8 @@ static REAL_(seen) REAL_(see)(REAL_(surface) s, const REAL w[3])
 	return seen;
 }
 
-/* G2 over the mean plane's area as o sees it: 1/(1 + Lambda_o + Lambda_i) on one side (eq. 99), the product of the two G1
- * where that is asked for, both over z_o. 0 where i sees the mean plane's back. */
+/* G2 over the mean plane's area as o sees it: 1/(1 + Lambda_o + Lambda_i) on one side (eq. 99), the product of the two
+ * G1 where that is asked for, both over z_o. 0 where i sees the mean plane's back. */
 static REAL REAL_(g2_over_cos)(REAL_(seen) o, REAL_(seen) i, int separable)
 {
 	if (!(i.z > 0))
@@ -117,8 +117,8 @@ static REAL REAL_(g2_over_cos)(REAL_(seen) o, REAL_(seen) i, int separable)
 	return separable ? i.z / ((o.z + o.h) * (i.z + i.h)) : 1 / (o.z + o.h + o.z * i.h / i.z);
 }
 
-/* Reflection and refraction by a facet: reflectance f or transmittance of it given, value and density and weight of what it
- * makes of the light. */
+/* Reflection and refraction by a facet: reflectance f or transmittance of it given, value and density and weight of
+ * what it makes of the light. */
 typedef struct {
 	REAL eval, pdf,
 		weight; /* eval: of reflectance 1; pdf: the event being chosen with probability 1; weight: their ratio */
@@ -126,7 +126,8 @@ typedef struct {
 	int there;
 } REAL_(facet);
 
-/* o and i above the surface. Cook and Torrance 1982, Walter et al. 2007, eq. 20; Heitz and d'Eon 2014 for the density. */
+/* o and i above the surface. Cook and Torrance 1982, Walter et al. 2007, eq. 20; Heitz and d'Eon 2014 for the
+ * density. */
 static REAL_(facet) REAL_(reflection)(REAL_(surface) s, const REAL o[3], const REAL i[3], int separable)
 {
 	REAL_(facet) f = {0, 0, 0, 0, 0};

@@ -1,9 +1,10 @@
 /* strategies.h - what the studies of sampling strategies share: lights, materials, and one sample by each technique.
  *
- * A case is a material, a direction to the viewer and a light around it; what is estimated is the luminance that reaches
- * the viewer, the integral of f L |cos theta_i|. All techniques estimate the same number, each from its own directions:
- * the ten strategies of microfacet/strategy.h draw them from the lobe, LIGHT from the light in proportion to its
- * luminance, and the last ones from both, a direction each, weighted by the balance or power heuristic (Veach 1997). */
+ * A case is a material, a direction to the viewer and a light around it; what is estimated is the luminance that
+ * reaches the viewer, the integral of f L |cos theta_i|. All techniques estimate the same number, each from its own
+ * directions: the ten strategies of microfacet/strategy.h draw them from the lobe, LIGHT from the light in proportion
+ * to its luminance, and the last ones from both, a direction each, weighted by the balance or power heuristic (Veach
+ * 1997). */
 #ifndef LOBE_REPORT_STRATEGIES_H
 #define LOBE_REPORT_STRATEGIES_H
 
@@ -43,7 +44,8 @@ typedef struct {
 } strategies_light;
 
 /* Loads the probes when it is called first, which should be from one thread: LOBE_REPORT_PROBES names files or folders,
- * separated by ':'; without it those that deps.sh probes has fetched, or of an installed blender-data. quick: two of them at most. */
+ * separated by ':'; without it those that deps.sh probes has fetched, or of an installed blender-data. quick: two of
+ * them at most. */
 size_t strategies_lights(int quick);
 size_t strategies_analytic_lights(void);
 
@@ -101,8 +103,8 @@ float strategies_estimate(const strategies_case *c, int technique, const float u
 /* That a technique takes the lobe's direction from; VISIBLE for the light alone. */
 lobe_uint strategies_strategy(int technique);
 
-/* The same, and what it is made of, compiled for one distribution and for each strategy alone (strategies_only.h): what times
- * are of. The same bits. */
+/* The same, and what it is made of, compiled for one distribution and for each strategy alone (strategies_only.h): what
+ * times are of. The same bits. */
 typedef struct {
 	float (*estimate[STRATEGIES_TECHNIQUES])(const strategies_case *c, const float u[3], const float v[3]);
 	lobe_real (*pdf[STRATEGIES_LOBE])(const strategies_case *c, lobe_vec3 wi);

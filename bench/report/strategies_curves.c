@@ -2,8 +2,8 @@
  * points, over many repetitions.
  *
  * A repetition takes 4096 samples and looks at the mean after 1, 4, 16 ... of them: any such beginning of the scrambled
- * sequence is itself one. The error is the root of the mean square over repetitions; its own standard deviation comes from
- * the spread of the squares. */
+ * sequence is itself one. The error is the root of the mean square over repetitions; its own standard deviation comes
+ * from the spread of the squares. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-/* strategies_default.c - the default among the strategies that know nothing of the light: where it is the most efficient one,
- * where not, by how much and to whom. */
+/* strategies_default.c - the default among the strategies that know nothing of the light: where it is the most
+ * efficient one, where not, by how much and to whom. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -172,7 +172,8 @@ static double harmless(const rank_map *m, int k)
 	return beaten > 0.0 ? 100.0 * n / beaten : 0.0;
 }
 
-/* How far k is behind the best of those that follow the lobe: shares of cells within a tenth, a quarter, a factor of 2. */
+/* How far k is behind the best of those that follow the lobe: shares of cells within a tenth, a quarter, a factor of
+ * 2. */
 static void write_behind(report_page *page, const rank_map *m, int k)
 {
 	double *behind = calloc(m->count + 1, sizeof *behind);

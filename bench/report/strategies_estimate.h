@@ -1,6 +1,8 @@
-/* strategies_estimate.h - one estimate of the luminance, by each kind of technique: from the lobe, from the light, from both.
+/* strategies_estimate.h - one estimate of the luminance, by each kind of technique: from the lobe, from the light, from
+ * both.
  *
- * Included where the strategy is chosen at run time (strategies_case.c) and where it is a constant (strategies_only.h). */
+ * Included where the strategy is chosen at run time (strategies_case.c) and where it is a constant
+ * (strategies_only.h). */
 #ifndef LOBE_REPORT_STRATEGIES_ESTIMATE_H
 #define LOBE_REPORT_STRATEGIES_ESTIMATE_H
 

@@ -1,8 +1,9 @@
-/* strategies_holdout.c - lobe_recommend_strategy asked about cases that it was not tuned on: widths, stretch, angles and
- * lights drawn at random, and the probes from random sides.
+/* strategies_holdout.c - lobe_recommend_strategy asked about cases that it was not tuned on: widths, stretch, angles
+ * and lights drawn at random, and the probes from random sides.
  *
- * Case i is a function of i alone. Its lights by turns: a disk anywhere, a disk near the highlight, a disk with a sky, a
- * glow, a sky, and a probe where there is one. Disks are of .15 to 45 degrees; near: off by about the lobe's width. */
+ * Case i is a function of i alone. Its lights by turns: a disk anywhere, a disk near the highlight, a disk with a sky,
+ * a glow, a sky, and a probe where there is one. Disks are of .15 to 45 degrees; near: off by about the lobe's
+ * width. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

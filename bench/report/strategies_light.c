@@ -1,8 +1,8 @@
 /* strategies_light.c - lights from a pinprick sun to a dome, analytic with their own sampling, and real probes.
  *
  * Analytic lights are sums of parts of which each is drawn exactly in proportion to its radiance. The sun is a disk of
- * .265 degrees, which is what it measures from here. Directions in a cone are told by the chord to its axis, which keeps
- * its digits where the cosine has lost them. */
+ * .265 degrees, which is what it measures from here. Directions in a cone are told by the chord to its axis, which
+ * keeps its digits where the cosine has lost them. */
 #define _POSIX_C_SOURCE 200809L
 #include <glob.h>
 #include <math.h>

@@ -1,14 +1,15 @@
 /* strategies_moments.c - mean and variance of every technique as integrals, without a sample of theirs.
  *
- * With X = f L |cos| the second moment of a technique of density p is the integral of X^2/p, and those of the heuristics
- * are sums of such integrals, so that one set of points serves all techniques. Half of the points follow the lobe and
- * half the light, combined by the power heuristic: where the lobe is narrow or the light small some of them are there,
- * whichever technique is in question. Points are Owen-scrambled; as many randomisations as are asked for tell
- * the error.
+ * With X = f L |cos| the second moment of a technique of density p is the integral of X^2/p, and those of the
+ * heuristics are sums of such integrals, so that one set of points serves all techniques. Half of the points follow the
+ * lobe and half the light, combined by the power heuristic: where the lobe is narrow or the light small some of them
+ * are there, whichever technique is in question. Points are Owen-scrambled; as many randomisations as are asked for
+ * tell the error.
  *
  * Where a weight hardly varies, second moment and square of the mean agree in all digits that the points are good for.
  * Then the integral of p itself, which has the same error and is known to be 1 less the share of samples without
- * direction, takes it away: M - 2 I^2 + I^2 (P + rejected) is the integral of (X/p - I)^2 p, of rejected samples too. */
+ * direction, takes it away: M - 2 I^2 + I^2 (P + rejected) is the integral of (X/p - I)^2 p, of rejected samples
+ * too. */
 #include <math.h>
 #include <string.h>
 

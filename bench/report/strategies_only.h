@@ -1,5 +1,6 @@
-/* strategies_only.h - estimates, densities and samples with the distribution and the strategy as constants, as a production lobe of each would have
- * them: what a technique costs when nothing is chosen at run time. Same bits as strategies_estimate.
+/* strategies_only.h - estimates, densities and samples with the distribution and the strategy as constants, as a
+ * production lobe of each would have them: what a technique costs when nothing is chosen at run time. Same bits as
+ * strategies_estimate.
  *
  *	LOBE_ONLY_NDF	the distribution
  *	COMPILED	the table's name */

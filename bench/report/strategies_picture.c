@@ -1,9 +1,10 @@
 /* strategies_picture.c - the same three balls by each technique in the same time.
  *
- * Gold balls of three roughnesses under a sky or a probe, one bounce, nothing hides anything. What a technique may spend is
- * what the default takes for DEFAULT_SAMPLES a pixel; both are timed on these very pixels, in turn, and the technique gets
- * samples in proportion, a share of the pixels one more. Given the numbers of samples, which are in the rows, pictures
- * follow from nothing else. Pixels are luminances, a row of the picture in a cell, separated by spaces. */
+ * Gold balls of three roughnesses under a sky or a probe, one bounce, nothing hides anything. What a technique may
+ * spend is what the default takes for DEFAULT_SAMPLES a pixel; both are timed on these very pixels, in turn, and the
+ * technique gets samples in proportion, a share of the pixels one more. Given the numbers of samples, which are in the
+ * rows, pictures follow from nothing else. Pixels are luminances, a row of the picture in a cell, separated by
+ * spaces. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -122,9 +123,10 @@ const report_study strategies_reference_study = {
 
 /* --- what is to be expected --------------------------------------------------------------------------------------- */
 
-/* Where a technique finds the sun once in a while, the error of a picture is that of its few brightest pixels, and another
- * picture's is another. So the variance of a sample in a pixel is taken as an integral, of every STRATEGIES_GRID-th pixel: the mean
- * square error of all pictures with independent samples, of which the one shown is a draw. */
+/* Where a technique finds the sun once in a while, the error of a picture is that of its few brightest pixels, and
+ * another picture's is another. So the variance of a sample in a pixel is taken as an integral, of every
+ * STRATEGIES_GRID-th pixel: the mean square error of all pictures with independent samples, of which the one shown is a
+ * draw. */
 static size_t expected_units(int quick) { return pictures(quick) * (size_t)(height_of(quick) / STRATEGIES_GRID); }
 
 static int expected_run(int quick, size_t unit, report_rows *rows)
@@ -175,8 +177,8 @@ static double time_pixel(const strategies_case *c, int technique, const float (*
 	return 1e9 * (bench_now() - start) / count;
 }
 
-/* Of a sample without its random numbers, by the default and by the technique in turn, mean over pixels: of each the least
- * of some microseconds, for other programs on the machine only add to it. */
+/* Of a sample without its random numbers, by the default and by the technique in turn, mean over pixels: of each the
+ * least of some microseconds, for other programs on the machine only add to it. */
 static void time_pixels(strategies_case ball[BALLS], int technique, int height, double ns[TIMED])
 {
 	enum { COUNT = 64, ROUNDS = 9 };

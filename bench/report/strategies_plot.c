@@ -138,7 +138,8 @@ static void write_lines(report_page *page, const rank_map *m, const report_table
 		for (size_t i = first; i < first + per_case; i++) {
 			const int technique = rank_technique(report_cell(t, i, "technique"));
 			const int random = strcmp(report_cell(t, i, "points"), "random") == 0;
-			/* By the exact variance: repetitions of a technique that hardly ever finds the light tell nothing. */
+			/* By the exact variance: repetitions of a technique that hardly ever finds the light tell
+			 * nothing. */
 			fprintf(f, "%.6g %.6g\n",
 				1e-3 * ns * m->time[ndf][l][technique] * report_number(t, i, "samples"),
 				!random && !reported(t, i)

@@ -1,7 +1,7 @@
 /* strategies_rank.h - the map read back, and which technique is how good where.
  *
- * Efficiency is 1/(variance cost), where the cost of a sample is either a direction, as where each costs a ray, or the time
- * that the comparison lobe takes for it with the light's lookup, one sample after another on one thread. */
+ * Efficiency is 1/(variance cost), where the cost of a sample is either a direction, as where each costs a ray, or the
+ * time that the comparison lobe takes for it with the light's lookup, one sample after another on one thread. */
 #ifndef LOBE_REPORT_STRATEGIES_RANK_H
 #define LOBE_REPORT_STRATEGIES_RANK_H
 
@@ -9,11 +9,12 @@
 
 enum { LIGHTS_MAX = 32, SAMPLES = 0, TIME = 1, MEASURES = 2 };
 
-/* What ties: within 2 %, or within what is known of the two - two standard deviations of the integrals, 5 % at most, and
- * the spread of the times. Strategies of one density have one variance (strategies_moments.c) and tie in it. */
+/* What ties: within 2 %, or within what is known of the two - two standard deviations of the integrals, 5 % at most,
+ * and the spread of the times. Strategies of one density have one variance (strategies_moments.c) and tie in it. */
 #define RANK_TIE 1.02
 
-/* Among whom: strategies that draw facets of the lobe, or all that know nothing of the light, uniform and cosine too. */
+/* Among whom: strategies that draw facets of the lobe, or all that know nothing of the light, uniform and cosine
+ * too. */
 enum { FOLLOWING, BLIND, AMONG };
 
 typedef struct {
@@ -46,7 +47,8 @@ typedef struct {
 /* lobe_recommend_strategy told the light's shape, or asking the light itself. */
 enum { TOLD, ASKING, KNOWING };
 
-/* Loss over the best's of what is recommended in every cell that is not dark, by how and by analytic lights and probes. */
+/* Loss over the best's of what is recommended in every cell that is not dark, by how and by analytic lights and
+ * probes. */
 typedef struct {
 	double *loss[KNOWING][2]; /* [cells] */
 	size_t cells[2];

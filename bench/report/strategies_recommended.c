@@ -1,4 +1,5 @@
-/* strategies_recommended.c - what lobe_recommend_strategy names in every cell of the map, and what that costs over the best. */
+/* strategies_recommended.c - what lobe_recommend_strategy names in every cell of the map, and what that costs over the
+ * best. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* strategies_reference.c - what the techniques should find, in two ways that share nothing but the light: many points of
- * the power heuristic, and quadrature of the textbook's formula in double precision. */
+/* strategies_reference.c - what the techniques should find, in two ways that share nothing but the light: many points
+ * of the power heuristic, and quadrature of the textbook's formula in double precision. */
 #include <math.h>
 
 #include "quadrature.h"

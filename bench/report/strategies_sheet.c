@@ -85,7 +85,8 @@ static double median_error(const sheet_picture *p, const sheet_picture *truth)
 	return median;
 }
 
-/* RMS errors of the pictures by other seeds, of which there is a grid of pixels: quartiles and the median between them. */
+/* RMS errors of the pictures by other seeds, of which there is a grid of pixels: quartiles and the median between
+ * them. */
 typedef struct {
 	double quartile[3];
 } sheet_seeds;
@@ -117,8 +118,8 @@ static sheet_seeds seeds_of(const report_table *t, const char *light, const char
 	return s;
 }
 
-/* The root of the mean variance of a pixel of so many independent samples, a fraction of the pixels having one more, and its
- * standard deviation. */
+/* The root of the mean variance of a pixel of so many independent samples, a fraction of the pixels having one more,
+ * and its standard deviation. */
 typedef struct {
 	double error, doubt;
 } sheet_expected;

@@ -1,8 +1,9 @@
 /* strategies_time.c - what a sample costs: one after another on one thread, and in batches on each device.
  *
  * All techniques are timed in rounds, one after another, and the least of the rounds is a technique's time, for other
- * programs on the machine only add to it. The range given with it takes the lower quartile in the place of the least. The time of an estimate has everything but the random numbers, which
- * are read from a small table: sample, light, product. */
+ * programs on the machine only add to it. The range given with it takes the lower quartile in the place of the least.
+ * The time of an estimate has everything but the random numbers, which are read from a small table: sample, light,
+ * product. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

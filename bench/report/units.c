@@ -45,8 +45,8 @@ static size_t hash_files(uint64_t *hashed, const char *pattern)
 	return count;
 }
 
-/* The section's own source, and what sections share that is not in the OpenCL source: cases and references of the tests,
- * random numbers, lights, and the library's host part. */
+/* The section's own source, and what sections share that is not in the OpenCL source: cases and references of the
+ * tests, random numbers, lights, and the library's host part. */
 static uint64_t hash_sources(uint64_t h, const char *section)
 {
 	static const char *const shared[] = {

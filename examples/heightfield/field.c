@@ -75,8 +75,8 @@ static void transform(struct complex *a, size_t n, size_t stride)
 }
 
 /* Real heights of a spectrum of waves a cos(k.x + phase) with random phases. Amplitudes are not random: a^2/2 is a
- * normal density of the wave numbers with covariance (xx xy; xy yy), so that all moments are what they should be and not
- * only in the mean. Variance 1. */
+ * normal density of the wave numbers with covariance (xx xy; xy yy), so that all moments are what they should be and
+ * not only in the mean. Variance 1. */
 static int noise(double *heights, struct complex *work, int size, double xx, double yy, double xy, uint32_t seed)
 {
 	const int half = size / 2;

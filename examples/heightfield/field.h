@@ -5,8 +5,8 @@
 #include <stdint.h>
 
 /* What the slopes of a field shall be. floor 0: normally distributed, with variances alpha^2/2 and correlation rho.
- * floor > 0: of patches, each Gaussian, of all widths alpha/sqrt(E + floor), E exponentially distributed. A mixture with
- * floor = 0 would be GGX of width alpha; the floor cuts its tail where slopes exceed alpha/sqrt(floor). */
+ * floor > 0: of patches, each Gaussian, of all widths alpha/sqrt(E + floor), E exponentially distributed. A mixture
+ * with floor = 0 would be GGX of width alpha; the floor cuts its tail where slopes exceed alpha/sqrt(floor). */
 struct wanted {
 	const char *name;
 	double alpha_x, alpha_y, rho, mean_x, mean_y, floor;

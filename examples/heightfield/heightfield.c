@@ -1,8 +1,8 @@
 /* heightfield.c - from heights to a lobe: makes height fields whose slopes are prescribed, measures them, fits
  * microsurfaces, and shows both.
  *
- * field.c makes the fields, fit.c is how lobe is used on them, disk.c draws distributions of normals and sphere.c renders;
- * here are files and tables. */
+ * field.c makes the fields, fit.c is how lobe is used on them, disk.c draws distributions of normals and sphere.c
+ * renders; here are files and tables. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

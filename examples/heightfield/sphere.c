@@ -78,7 +78,8 @@ static lobe_vec3 normal_at(const struct relief *r, double x, double y)
 }
 
 /* Whether the surface is met going from p along d, and then where; otherwise the ray has left above. A step cannot pass
- * through the surface, or is one texel long, where waves are some 50 texels; a crossing is then found by false position. */
+ * through the surface, or is one texel long, where waves are some 50 texels; a crossing is then found by false
+ * position. */
 static int trace_ray(const struct relief *r, struct point *p, struct point d)
 {
 	const double across = sqrt(d.x * d.x + d.y * d.y), closing = fabs(d.z) + 1.5 * r->steepest * across;

@@ -9,10 +9,11 @@
 #include "image.h"
 #include "progress.h"
 
-/* Light that has been mirrored once, from facets that are seen and lit; what meets the surface again is dark. The ball is
- * so large that its surface is flat as far as the field goes, and the field repeats.
+/* Light that has been mirrored once, from facets that are seen and lit; what meets the surface again is dark. The ball
+ * is so large that its surface is flat as far as the field goes, and the field repeats.
  *
- * Into the picture from column x on, size pixels each way, spp samples a pixel. Each adds what is done to *done [pixels]. */
+ * Into the picture from column x on, size pixels each way, spp samples a pixel. Each adds what is done to *done
+ * [pixels]. */
 struct sphere_view {
 	struct image *image;
 	int x, size;
@@ -27,8 +28,8 @@ int sphere_of_field(const struct sphere_view *view, const struct field *field, d
 /* The same light from the distribution, by its visible normals, Smith's masking and shadowing. */
 void sphere_of_surface(const struct sphere_view *view, lobe_smith surface);
 
-/* Mean of |a - b| over the mean of b, of two such pictures that begin at these columns. Blocks of 8 x 8 pixels are taken
- * together, so that less of it is noise. */
+/* Mean of |a - b| over the mean of b, of two such pictures that begin at these columns. Blocks of 8 x 8 pixels are
+ * taken together, so that less of it is noise. */
 double sphere_difference(const struct image *image, int a, int b, int size);
 
 #endif

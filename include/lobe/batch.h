@@ -46,14 +46,16 @@ typedef enum {
 /* The name of a status, e.g. "LOBE_OK". Never null. */
 LOBE_API const char *lobe_status_string(lobe_status status);
 
-/* Why the last call of this thread that failed did so. Never null; "" if none has. Valid until the thread's next call. */
+/* Why the last call of this thread that failed did so. Never null; "" if none has. Valid until the thread's next
+ * call. */
 LOBE_API const char *lobe_error_message(void);
 
 typedef struct lobe_device lobe_device;
 typedef struct lobe_scene lobe_scene;
 
-/* Devices that backend "native" (1) or "opencl" (all devices of all platforms; 0 without a runtime) offers. A library built
- * without a backend (make LOBE_NATIVE=0, make LOBE_OPENCL=0) has 0 of it; opening one is a LOBE_ERROR_DEVICE that says so. */
+/* Devices that backend "native" (1) or "opencl" (all devices of all platforms; 0 without a runtime) offers. A library
+ * built without a backend (make LOBE_NATIVE=0, make LOBE_OPENCL=0) has 0 of it; opening one is a LOBE_ERROR_DEVICE that
+ * says so. */
 LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
 
 /* Opens a device by name:
@@ -66,13 +68,14 @@ LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
  *	             on the native one
  *
  * "opencl:all" gives each device an equal part of a scene's first batch of a kind, and then parts in proportion to the
- * speed that was measured; a batch of fewer than 1024 elements for each device goes to the fastest. Results do not depend
- * on it. A device that fails fails the batch, and the message names it. Devices that could not be opened are left out.
+ * speed that was measured; a batch of fewer than 1024 elements for each device goes to the fastest. Results do not
+ * depend on it. A device that fails fails the batch, and the message names it. Devices that could not be opened are
+ * left out.
  *
  * With ",native" a batch that fails on the OpenCL device, lost in its middle say, runs natively from its beginning, and
- * the caller sees nothing but the right results. A device that failed is not asked again (lobe_device_lost), unless it was
- * short of memory; the same goes for a program that does not build, and for a device that cannot be opened in the first
- * place. Such a device takes no cl_mem, nor does "opencl:all".
+ * the caller sees nothing but the right results. A device that failed is not asked again (lobe_device_lost), unless it
+ * was short of memory; the same goes for a program that does not build, and for a device that cannot be opened in the
+ * first place. Such a device takes no cl_mem, nor does "opencl:all".
  *
  * A native device runs the widest instruction set of "baseline", "avx2" and "avx512" that was compiled in and that the
  * processor has; the environment variable LOBE_ISA names a narrower one. Results do not depend on it. */
@@ -91,11 +94,12 @@ LOBE_API void lobe_device_close(lobe_device *device);
 /* Takes a copy of materials[0..count), each checked field by field, and prepares the device for the kinds of lobe in it
  * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds.
  *
- * Built OpenCL programs are kept between runs in a folder: $LOBE_CACHE_DIR, else $XDG_CACHE_HOME/lobe, else ~/.cache/lobe;
- * LOBE_CACHE_DIR="" keeps none. They are found by source, options, device and driver. A file that is damaged, not the
- * user's own or refused by the driver is passed over, a folder that cannot be written does no harm, and what has not been
- * used for longest goes when all exceed 64 MiB. Processes may share the folder. PoCL has a cache of its own, and takes
- * longer to hand out a binary than to build a program: there ours is used only when LOBE_CACHE_DIR is set. */
+ * Built OpenCL programs are kept between runs in a folder: $LOBE_CACHE_DIR, else $XDG_CACHE_HOME/lobe, else
+ * ~/.cache/lobe; LOBE_CACHE_DIR="" keeps none. They are found by source, options, device and driver. A file that is
+ * damaged, not the user's own or refused by the driver is passed over, a folder that cannot be written does no harm,
+ * and what has not been used for longest goes when all exceed 64 MiB. Processes may share the folder. PoCL has a cache
+ * of its own, and takes longer to hand out a binary than to build a program: there ours is used only when
+ * LOBE_CACHE_DIR is set. */
 LOBE_API lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count);
 
 /* Null does nothing. */
@@ -125,8 +129,8 @@ typedef struct {
  * A native device takes strided elements a block at a time through the first-level cache; an OpenCL device gets them
  * packed by the host, part by part.
  *
- * count 0 is allowed and does nothing. A batch may be larger than an OpenCL device's memory, or than the part of it that is
- * free: it goes through in chunks. Inputs of one element never affect another's result. */
+ * count 0 is allowed and does nothing. A batch may be larger than an OpenCL device's memory, or than the part of it
+ * that is free: it goes through in chunks. Inputs of one element never affect another's result. */
 typedef struct {
 	size_t count;
 	const uint32_t *material;          /* index into the scene's materials, or NULL: material 0 for every element */
@@ -146,14 +150,14 @@ LOBE_API lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batc
 /* A batch that runs behind the caller. */
 typedef struct lobe_event lobe_event;
 
-/* lobe_scene_eval and lobe_scene_sample that return before the results are there. Arguments are checked at once, and what
- * is wrong with them is this call's status; what fails later is the status of lobe_event_wait. Until the batch is done its
- * arrays must stay, inputs unchanged, and so must the scene; lobe_batch itself is copied.
+/* lobe_scene_eval and lobe_scene_sample that return before the results are there. Arguments are checked at once, and
+ * what is wrong with them is this call's status; what fails later is the status of lobe_event_wait. Until the batch is
+ * done its arrays must stay, inputs unchanged, and so must the scene; lobe_batch itself is copied.
  *
  * A device runs such batches one after another in the order in which they were given, on a thread of its own that the
- * first one starts, and in turn with plain calls from other threads; any number may be waiting. Batches given to several
- * devices run at the same time. On an OpenCL device with memory of its own, the copies of one part of a large batch go on
- * beside the kernels of another, here and in plain calls. */
+ * first one starts, and in turn with plain calls from other threads; any number may be waiting. Batches given to
+ * several devices run at the same time. On an OpenCL device with memory of its own, the copies of one part of a large
+ * batch go on beside the kernels of another, here and in plain calls. */
 LOBE_API lobe_status lobe_scene_eval_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out);
 LOBE_API lobe_status lobe_scene_sample_async(lobe_scene *scene, const lobe_batch *batch, lobe_event **out);
 
@@ -192,11 +196,11 @@ LOBE_API lobe_status lobe_device_open_cl(lobe_device **out, struct _cl_context *
 LOBE_API lobe_status lobe_device_cl(const lobe_device *device, struct _cl_context **context, struct _cl_device_id **id,
 				    struct _cl_command_queue **queue);
 
-/* lobe_batch with buffers that stay on the device: each holds at least count elements of 4 bytes from offset 0. The same
- * rules, with two exceptions: overlapping sub-buffers are not noticed, and where no more than one kind of lobe is in the
- * scene a material index out of range is not an error but shades to 0. The call enqueues on the
- * device's queue and returns; clFinish or a blocking read waits for the results. With a material buffer and more than
- * one kind of lobe in the scene, the indices are read back first, to sort by kind. */
+/* lobe_batch with buffers that stay on the device: each holds at least count elements of 4 bytes from offset 0. The
+ * same rules, with two exceptions: overlapping sub-buffers are not noticed, and where no more than one kind of lobe is
+ * in the scene a material index out of range is not an error but shades to 0. The call enqueues on the device's queue
+ * and returns; clFinish or a blocking read waits for the results. With a material buffer and more than one kind of lobe
+ * in the scene, the indices are read back first, to sort by kind. */
 typedef struct {
 	size_t count;
 	struct _cl_mem *material;

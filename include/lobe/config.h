@@ -4,7 +4,8 @@
  * LOBE_HAS_DEFAULT  what a lobe's switch is when nobody sets it
  * LOBE_HAS_<LOBE>   0 leaves the lobe out: its header, its place in lobe_bsdf, its kernels
  *
- * LOBE_ONLY_<CHOICE> where something is chosen at run time, the number of the one value that ever is: all others are left out
+ * LOBE_ONLY_<CHOICE> where something is chosen at run time, the number of the one value that ever is: all others are
+ * left out
  *
  * A scene of two lobes compiles with -DLOBE_HAS_DEFAULT=0 and one -DLOBE_HAS_<LOBE>=1 for each. */
 #ifndef LOBE_CONFIG_H

@@ -10,8 +10,8 @@
  * that was left out is a LOBE_ERROR_PARAMETER that names it. Without this file a program gets all loops. The shared
  * library always has them all, and a library built with LOBE_NATIVE=0 none.
  *
- * How: the library finds its loops through the list lobe_linked, which stands alone in one of its objects. A program that
- * brings a list of its own keeps the linker from taking that object, and so all that only it refers to. */
+ * How: the library finds its loops through the list lobe_linked, which stands alone in one of its objects. A program
+ * that brings a list of its own keeps the linker from taking that object, and so all that only it refers to. */
 #ifndef LOBE_LINK_H
 #define LOBE_LINK_H
 

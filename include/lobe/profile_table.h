@@ -5,9 +5,9 @@
  *	if (lobe_distribution_gtr(&d, table, LOBE_PROFILE_WORDS, 1.5f, 0.2f) != LOBE_OK)
  *		puts(lobe_error_message());
  *
- * The table belongs to the caller, who keeps it unchanged as long as d or anything made with it is used. It depends on the
- * distribution alone, not on the stretch or map that is put on it. Making one takes some milliseconds, in double precision,
- * and allocates a megabyte or so meanwhile.
+ * The table belongs to the caller, who keeps it unchanged as long as d or anything made with it is used. It depends on
+ * the distribution alone, not on the stretch or map that is put on it. Making one takes some milliseconds, in double
+ * precision, and allocates a megabyte or so meanwhile.
  *
  * On failure *out and the table are left as they were. */
 #ifndef LOBE_PROFILE_TABLE_H
@@ -37,9 +37,9 @@ LOBE_API lobe_status lobe_distribution_student_t(lobe_distribution *out, float *
 typedef double (*lobe_profile_function)(void *context, double tan_theta);
 
 /* Any isotropic distribution of width 1: D(m) cos^4 theta = c f(tan theta), with the factor c that makes it one. f is
- * asked for tan_theta between 4e-18 and 1.3e19. It may be 0 in parts, may jump, and may have peaks, if they are wider than
- * 1/100 of their own steepness. Between knots f is smoothed: the density that lobe_distribution_density() gives is that of
- * the table.
+ * asked for tan_theta between 4e-18 and 1.3e19. It may be 0 in parts, may jump, and may have peaks, if they are wider
+ * than 1/100 of their own steepness. Between knots f is smoothed: the density that lobe_distribution_density() gives is
+ * that of the table.
  *
  * LOBE_ERROR_PARAMETER where f is negative or no finite number, is 0 everywhere, cannot be integrated over the plane of
  * slopes, or falls more slowly than tan_theta^-3.002, for then the mean slope, and with it the area seen at grazing, is

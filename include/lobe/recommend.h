@@ -6,8 +6,8 @@
  *	p = lobe_microfacet_conductor_make(surface, fresnel, r.strategy);	and r.from says what to draw from
  *
  * Of a reflecting lobe. The light is described by a disk and a glow around one direction (in the shading frame, unit),
- * their solid angles, and how much of all light comes from each; the rest is a sky over the surface. A light that is not
- * like that - lamps here and there, a probe - is asked itself, at directions of the lobe's and of its own drawing:
+ * their solid angles, and how much of all light comes from each; the rest is a sky over the surface. A light that is
+ * not like that - lamps here and there, a probe - is asked itself, at directions of the lobe's and of its own drawing:
  *
  *	lobe_recommend_sums s = lobe_recommend_start(LOBE_RECOMMEND_POINTS);
  *	for (int pass = 0; pass < 2; pass++)
@@ -17,10 +17,10 @@
  *		}
  *	lobe_recommendation r = lobe_recommend_answer(s, surface, lobe_recommend_cost_samples());
  *
- * The variance that each technique would have is then an integral, and that is what is compared: integrated with
- * points of a lattice from the lobe and as many from the light, all techniques on the same ones (power heuristic between
- * the two). A technique's efficiency is 1/(variance cost). Nearly equal ones go to the first of
- * VISIBLE, BOUNDED_CAP and the rest.
+ * The variance that each technique would have is then an integral, and that is what is compared: integrated with points
+ * of a lattice from the lobe and as many from the light, all techniques on the same ones (power heuristic between the
+ * two). A technique's efficiency is 1/(variance cost). Nearly equal ones go to the first of VISIBLE, BOUNDED_CAP and
+ * the rest.
  *
  * It takes about a millisecond: a question to ask for a material, an angle and a light, not for a sample. How often
  * it is right, and how far off when it is not: `make report`, section strategies; tests/test_recommend.c. */
@@ -37,10 +37,10 @@ enum { LOBE_RECOMMEND_POINTS = 512 };
  * 1997). Stable across versions. */
 enum { LOBE_SAMPLE_LOBE = 0, LOBE_SAMPLE_LIGHT = 1, LOBE_SAMPLE_BOTH_BALANCE = 2, LOBE_SAMPLE_BOTH_POWER = 3 };
 
-/* disk, glow, in [0, 1], at most 1 together: their shares of the light. solid_angle [sr], in (0, 2 pi]: of the disk, which
- * has a sharp edge. exponent, >= 0: the n of a glow that falls off like ((1 + cos)/2)^n. slope, >= -1: the rest is a sky of
- * radiance 1 + slope cos(angle to the surface's normal): 2 for the CIE's overcast one, -2/3 for one three times as bright
- * at the horizon as overhead. */
+/* disk, glow, in [0, 1], at most 1 together: their shares of the light. solid_angle [sr], in (0, 2 pi]: of the disk,
+ * which has a sharp edge. exponent, >= 0: the n of a glow that falls off like ((1 + cos)/2)^n. slope, >= -1: the rest
+ * is a sky of radiance 1 + slope cos(angle to the surface's normal): 2 for the CIE's overcast one, -2/3 for one three
+ * times as bright at the horizon as overhead. */
 typedef struct {
 	lobe_vec3 axis;
 	lobe_real disk, solid_angle, glow, exponent, slope;
@@ -84,7 +84,8 @@ LOBE_FN lobe_light_shape lobe_light_shape_glow(lobe_vec3 axis, lobe_real solid_a
 	return lobe_light_shape_with_glow(s, solid_angle, share);
 }
 
-/* What a sample costs, in any unit: from the lobe by each strategy, from the light, and what weighting adds to the two. */
+/* What a sample costs, in any unit: from the lobe by each strategy, from the light, and what weighting adds to the
+ * two. */
 typedef struct {
 	lobe_real lobe[LOBE_STRATEGY_LAST + 1];
 	lobe_real light, weighting;
@@ -110,8 +111,8 @@ typedef struct {
 
 /* --- integrals ---------------------------------------------------------------------------------------------------- */
 
-/* What is looked at: the lobe's strategies, the light, and both with VISIBLE by either heuristic and with BOUNDED_CAP by
- * the balance heuristic. */
+/* What is looked at: the lobe's strategies, the light, and both with VISIBLE by either heuristic and with BOUNDED_CAP
+ * by the balance heuristic. */
 enum {
 	LOBE_RECOMMEND_LIGHT = LOBE_STRATEGY_LAST + 1,
 	LOBE_RECOMMEND_DENSITIES,
@@ -127,14 +128,14 @@ typedef struct {
 	lobe_real pdf[LOBE_RECOMMEND_DENSITIES];
 } lobe_recommend_point;
 
-/* What is seen of the light in a direction: its radiance (of three channels the luminance; in any unit), and the density
- * with which its own sampling draws that direction [1/sr]. */
+/* What is seen of the light in a direction: its radiance (of three channels the luminance; in any unit), and the
+ * density with which its own sampling draws that direction [1/sr]. */
 typedef struct {
 	lobe_real radiance, pdf;
 } lobe_light_seen;
 
-/* part: 1 over the number of points. mean, and of each technique what the first pass finds of it (mass of the densities; of
- * BOTH the lobe's part of the mean) and the second (variance). */
+/* part: 1 over the number of points. mean, and of each technique what the first pass finds of it (mass of the
+ * densities; of BOTH the lobe's part of the mean) and the second (variance). */
 typedef struct {
 	lobe_real part, mean;
 	lobe_real first[LOBE_RECOMMEND_TECHNIQUES];
@@ -350,8 +351,8 @@ LOBE_FN_APART lobe_recommendation lobe_recommend_answer(lobe_recommend_sums s, l
 							lobe_recommend_cost cost)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	/* The default first, and its nearest. Others have to be better by more than the integrals are good for; by still
-	 * more where weights have no bound, whose rare large ones the points may miss. */
+	/* The default first, and its nearest. Others have to be better by more than the integrals are good for; by
+	 * still more where weights have no bound, whose rare large ones the points may miss. */
 	const lobe_real clearly = LOBE_R(0.985), unbounded = LOBE_R(0.93);
 	lobe_recommendation best;
 	best.strategy = LOBE_STRATEGY_VISIBLE;

@@ -39,8 +39,8 @@ typedef struct {
  * value, and 128/255 for 0 is a slope of 0.004). */
 typedef enum { LOBE_SLOPES_HEIGHT, LOBE_SLOPES_NORMAL, LOBE_SLOPES_NORMAL_PICTURE } lobe_slope_kind;
 
-/* Heights at the edges. Wrap: the map repeats. Clamp: it ends, and the slope at its edge is that of the last two texels.
- * (Repeating the last texel, as textures clamp, would halve the slope there.) */
+/* Heights at the edges. Wrap: the map repeats. Clamp: it ends, and the slope at its edge is that of the last two
+ * texels. (Repeating the last texel, as textures clamp, would halve the slope there.) */
 typedef enum { LOBE_EDGE_WRAP, LOBE_EDGE_CLAMP } lobe_slope_edge;
 
 /* x grows along a row, y from row to row; with flip_y from the last row to the first. So for a picture whose top row

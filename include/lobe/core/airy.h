@@ -1,17 +1,17 @@
 /* airy.h - a thin film on a base: the exact reflectance of one wavelength.
  *
  * Airy's sum of all interreflections between two parallel interfaces (Born and Wolf, 1.6.4 and 14.4.1), each
- * polarisation by itself. r12 belongs to the interface between outside and film, real; r23 to that between film and base,
- * complex over a metal; e^(i delta), delta = 2 pi OPD/wavelength, to the way there and back in the film, whose optical
- * path is OPD = 2 d sqrt(film^2 - sin^2). With T = 1 - |r|^2 and w = r23 e^(i delta)
+ * polarisation by itself. r12 belongs to the interface between outside and film, real; r23 to that between film and
+ * base, complex over a metal; e^(i delta), delta = 2 pi OPD/wavelength, to the way there and back in the film, whose
+ * optical path is OPD = 2 d sqrt(film^2 - sin^2). With T = 1 - |r|^2 and w = r23 e^(i delta)
  *	R = |(r12 + w)/(1 + r12 w)|^2,   1 - R = T12 T23/|1 + r12 w|^2
  * neither of which cancels but where waves do.
  *
  * Lengths are in nanometres. film, n, k: index of the film and of the base, all over that of the outside. film >= 1, or
  * there would be total reflection in the film; thin_film.h has the way out for a base that is rarer than the outside.
  *
- * No film is no film: with d = 0 the result is the base's own Fresnel reflectance to rounding, with film = 1 too, and so
- * it is where OPD is a whole number of wavelengths. Absolute error where OPD is below a wavelength 9.8e-7 over a
+ * No film is no film: with d = 0 the result is the base's own Fresnel reflectance to rounding, with film = 1 too, and
+ * so it is where OPD is a whole number of wavelengths. Absolute error where OPD is below a wavelength 9.8e-7 over a
  * dielectric, 3.9e-6 over a metal, beyond by 2.6e-6 for each wavelength: a rounding of the phase
  * (tests/test_thin_film.c, against complex double). */
 #ifndef LOBE_CORE_AIRY_H
@@ -109,8 +109,8 @@ LOBE_FN lobe_film_bottoms lobe_film_bottoms_conductor(lobe_film_top top, lobe_re
 	return b;
 }
 
-/* Amplitudes between two dielectrics of indices n1 and n2, from n1 cos_1 = c and n2 cos_2 = g, k = n2^2 - n1^2 = g^2 - c^2
- * and s2, the square of n sin on both sides. With A = c + g, B = n2^2 c + n1^2 g they (Born and Wolf, 1.5.2)
+/* Amplitudes between two dielectrics of indices n1 and n2, from n1 cos_1 = c and n2 cos_2 = g, k = n2^2 - n1^2 = g^2 -
+ * c^2 and s2, the square of n sin on both sides. With A = c + g, B = n2^2 c + n1^2 g they (Born and Wolf, 1.5.2)
  *	r_s = (c - g)/A                = -k/A^2
  *	r_p = (n2^2 c - n1^2 g)/B      = k (c g - s2)/(A B)
  * are free of cancellation however near the indices are (but for the zero of r_p at Brewster's angle).

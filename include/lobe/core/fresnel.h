@@ -17,9 +17,9 @@ typedef struct {
 /* The root of g^2, 0 where that is below 0: at total reflection. */
 LOBE_FN lobe_real lobe_fresnel_g(lobe_real g2) { return lobe_sqrt(lobe_max(LOBE_R(0.0), g2)); }
 
-/* The interface of index eta, at a normal m of any length: c = w.m, g = eta |m| cos_t, m2 = |m|^2 and
- * x = c g - |w x m|^2 for the unit direction w. All of it scales with |m|, on which no reflectance depends, so that a facet
- * or a half vector need not be normalised. k = (eta - 1)(eta + 1). */
+/* The interface of index eta, at a normal m of any length: c = w.m, g = eta |m| cos_t, m2 = |m|^2 and x = c g - |w x
+ * m|^2 for the unit direction w. All of it scales with |m|, on which no reflectance depends, so that a facet or a half
+ * vector need not be normalised. k = (eta - 1)(eta + 1). */
 typedef struct {
 	lobe_real c, g, x, m2;
 	lobe_real eta, eta2, k;
@@ -79,8 +79,9 @@ LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_at(lobe_fresnel_interface 
 /* Amplitudes (Born and Wolf, 1.5.2) from A = c + g and B = eta^2 c + g,
  *	r_s = (c - g)/A         = -bend m2 a,       bend = k/A, a = 1/A
  *	r_p = (eta^2 c - g)/B   = bend x b,         b = 1/B
- * free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle). bend is that of lobe_refract,
- * for m of whatever length. (2^-60: where eta = 1 and c = 0, or c = 0 in total reflection, A and B are 0.) */
+ * free of cancellation however near eta is to 1 (but for the zero of r_p at Brewster's angle). bend is that of
+ * lobe_refract, for m of whatever length. (2^-60: where eta = 1 and c = 0, or c = 0 in total reflection, A and B are
+ * 0.) */
 typedef struct {
 	lobe_real a, b, bend;
 } lobe_fresnel_amplitudes;
@@ -98,8 +99,9 @@ LOBE_FN lobe_fresnel_amplitudes lobe_fresnel_amplitudes_make(lobe_fresnel_interf
 	return r;
 }
 
-/* Reflectance F and transmittance 1 - F = 2 g c (1/A^2 + eta^2/B^2), which does not cancel near total reflection, have one
- * form, s t ((x a)^2 + (y b)^2): with s = bend, t = bend/2 and (x, y) = (m2, x), or with s = c, t = 2 g and (1, eta). */
+/* Reflectance F and transmittance 1 - F = 2 g c (1/A^2 + eta^2/B^2), which does not cancel near total reflection, have
+ * one form, s t ((x a)^2 + (y b)^2): with s = bend, t = bend/2 and (x, y) = (m2, x), or with s = c, t = 2 g and (1,
+ * eta). */
 LOBE_FN lobe_real lobe_fresnel_part(lobe_fresnel_amplitudes r, lobe_real s, lobe_real t, lobe_real x, lobe_real y)
 {
 	const lobe_real xa = x * r.a, yb = y * r.b;
@@ -172,8 +174,8 @@ LOBE_FN lobe_vec3 lobe_reflect(lobe_vec3 w, lobe_vec3 m, lobe_real c)
 	return lobe_vec3_fma(c + c, m, lobe_vec3_make(-w.x, -w.y, -w.z));
 }
 
-/* What lobe_fresnel_conductor needs of the angle, shared by the three colours: c2 and s2 are cos^2 and sin^2, s4 = s2^2, and
- * the same times 2^36, which keeps what is near 1e-38 otherwise well above it. */
+/* What lobe_fresnel_conductor needs of the angle, shared by the three colours: c2 and s2 are cos^2 and sin^2, s4 =
+ * s2^2, and the same times 2^36, which keeps what is near 1e-38 otherwise well above it. */
 typedef struct {
 	lobe_real c2, s2, big_c2, big_s2, big_s4;
 } lobe_fresnel_angle;
@@ -220,15 +222,15 @@ LOBE_FN lobe_fresnel_conductor_root lobe_fresnel_conductor_root_make(lobe_real s
 /* Exact reflectance of a conductor with complex index n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
- * The usual form (Born and Wolf, 14.2) needs 2Ac and q. Multiplied through by S = 2 max(A, K)^2 = q + |t|, both cases of the
- * root need one root more and no division:
+ * The usual form (Born and Wolf, 14.2) needs 2Ac and q. Multiplied through by S = 2 max(A, K)^2 = q + |t|, both cases
+ * of the root need one root more and no division:
  *	F_s = N/D,  N, D = (q + c^2) S -+ R,                  R = (q + t if t >= 0, else 2nk) sqrt(2 c^2 S)
  *	F = F_s E/(E + R s^2),                                E = (q c^2 + s^4) S
  * where the second line is (F_s + F_p)/2. Error 3.1e-7 relative for real metals, 3.1e-7 absolute over the domain, but
- * for what a rounding of t does where n^2 is near sin^2 and k near 0 (tests/test_fresnel.c).
+ * for what a rounding of t does where n^2 is near sin^2 and k near 0 (tests/test_fresnel_conductor.c).
  *
- * With the second line times 2^36, den is between about 1e-27 and 1e37 over the domain; 0 where k = 0 and n = sin, which
- * 2^-100 keeps it off. num, which is a rounding of 0 where there is hardly an interface, may have either sign. */
+ * With the second line times 2^36, den is between about 1e-27 and 1e37 over the domain; 0 where k = 0 and n = sin,
+ * which 2^-100 keeps it off. num, which is a rounding of 0 where there is hardly an interface, may have either sign. */
 LOBE_FN lobe_quotient lobe_fresnel_conductor_quotient(lobe_fresnel_angle a, lobe_real n, lobe_real k)
 {
 	const lobe_fresnel_conductor_root r = lobe_fresnel_conductor_root_make(a.s2, n, k);

@@ -2,8 +2,8 @@
  *
  * Gulbrandsen 2014, "Artist friendly metallic Fresnel", JCGT 3(4). r is the reflectance at normal incidence, g ("edge
  * tint") chooses among the indices n + ik that have it: at g = 0 n is largest and k = 0, the reflectance rises late and
- * dips before it; at g = 1 n is small, k large, and it rises from r at once. For make functions: the index goes into the
- * exact conductor. */
+ * dips before it; at g = 1 n is small, k large, and it rises from r at once. For make functions: the index goes into
+ * the exact conductor. */
 #ifndef LOBE_CORE_FRESNEL_ARTIST_H
 #define LOBE_CORE_FRESNEL_ARTIST_H
 
@@ -27,8 +27,8 @@ typedef struct {
  *	k^2 = (r (n + 1)^2 - (n - 1)^2)/(1 - r) = (N - n)(n - 1/N).
  * Both factors are formed from
  *	N - M = 2 s (1 + s)/((1 - s)(1 + r)),   M - 1/N = 2 s (1 - s)/((1 + r)(1 + s)),
- * so that nothing cancels but 1 - r, which is exact where it is small. n and k are off by 3.5e-7 relative, the reflectance
- * that they have from r by 1.1e-7 (tests/test_fresnel_schlick.c). */
+ * so that nothing cancels but 1 - r, which is exact where it is small. n and k are off by 3.5e-7 relative, the
+ * reflectance that they have from r by 1.1e-7 (tests/test_fresnel_schlick.c). */
 LOBE_FN lobe_fresnel_index lobe_fresnel_artist(lobe_real r, lobe_real g)
 {
 	const lobe_real one = LOBE_R(1.0);

@@ -125,8 +125,8 @@ LOBE_FN_APART lobe_rgb lobe_fresnel_model_opaque(lobe_fresnel_model f, lobe_real
 	}
 }
 
-/* 1 less that, where it does not depend on a base. Of Schlick's, (1 - f90) + (f90 - f0)(1 - (1-c)^5), whose last factor is
- * c times a sum: no cancellation at grazing angles. */
+/* 1 less that, where it does not depend on a base. Of Schlick's, (1 - f90) + (f90 - f0)(1 - (1-c)^5), whose last factor
+ * is c times a sum: no cancellation at grazing angles. */
 LOBE_FN lobe_rgb lobe_fresnel_model_rest(lobe_fresnel_model f, lobe_real c, lobe_rgb reflectance)
 {
 	const lobe_real one = LOBE_R(1.0);

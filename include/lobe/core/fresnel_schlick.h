@@ -14,10 +14,10 @@
  * found from what the lobe is there: as a fraction of Schlick's value ("tint") or outright.
  *
  * Schlick's largest distance from the exact dielectric is .21 at index 1.1, .060 at 1.33, .036 at 1.5, .044 at 2 and
- * .20 at 4; from the metals of optics.def .21 (tungsten), where f82 fitted at 1/7 stays within .033. Single precision adds
- * 2.4e-7 (tests/test_fresnel_schlick.c): of 1, and so it is for a curve that falls to an f90 below f0 at grazing angles. Its
- * f0 (1 - w) + f90 w, with 1 - w as c times a sum of powers, would be exact to itself; it is not done, as every other curve
- * would pay for it. From the dense side use the transmitted cosine as c. */
+ * .20 at 4; from the metals of optics.def .21 (tungsten), where f82 fitted at 1/7 stays within .033. Single precision
+ * adds 2.4e-7 (tests/test_fresnel_schlick.c): of 1, and so it is for a curve that falls to an f90 below f0 at grazing
+ * angles. Its f0 (1 - w) + f90 w, with 1 - w as c times a sum of powers, would be exact to itself; it is not done, as
+ * every other curve would pay for it. From the dense side use the transmitted cosine as c. */
 #ifndef LOBE_CORE_FRESNEL_SCHLICK_H
 #define LOBE_CORE_FRESNEL_SCHLICK_H
 

@@ -1,7 +1,7 @@
 /* powers.h - logarithms and exponentials near 1 and 0, where log(1 + x) and exp(x) - 1 cancel.
  *
- * What rounding 1 + x or exp(x) took away is put back by a quotient (Kahan): both functions keep the relative accuracy of
- * lobe_log and lobe_exp. Measured by tests/test_distributions_forms.c: 2.4 ulp. */
+ * What rounding 1 + x or exp(x) took away is put back by a quotient (Kahan): both functions keep the relative accuracy
+ * of lobe_log and lobe_exp. Measured by tests/test_distributions_forms.c: 2.4 ulp. */
 #ifndef LOBE_CORE_POWERS_H
 #define LOBE_CORE_POWERS_H
 
@@ -32,8 +32,8 @@ LOBE_FN lobe_real lobe_expm1(lobe_real x)
 /* (exp(x) - 1)/x, 1 at 0. */
 LOBE_FN lobe_real lobe_expm1_over(lobe_real x) { return x == LOBE_R(0.0) ? LOBE_R(1.0) : lobe_expm1(x) / x; }
 
-/* (1 + x)^-e for x >= 0 and any e, to a few roundings of itself however small it is: by lobe_pow, whose logarithm has more
- * digits than a float, of u = 1 + x rounded, times (1 + rest/u)^-e for what that took away. Measured by
+/* (1 + x)^-e for x >= 0 and any e, to a few roundings of itself however small it is: by lobe_pow, whose logarithm has
+ * more digits than a float, of u = 1 + x rounded, times (1 + rest/u)^-e for what that took away. Measured by
  * tests/test_distributions_forms.c: 3 ulp for e to 1e5, 16 to 1.3e8. */
 LOBE_FN lobe_real lobe_decay(lobe_real x, lobe_real e)
 {

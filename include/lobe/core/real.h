@@ -66,8 +66,8 @@ LOBE_FN lobe_sincos lobe_sincos_2pi(lobe_real u)
 }
 LOBE_FN lobe_sincos lobe_sincos_2pi_small(lobe_real u) { return lobe_sincos_2pi(u); }
 
-/* From x = 3 on by the tail T = (1/2)/(x + 1/(x + (3/2)/(x + ... of the continued fraction sqrt(pi) erfcx(x) = 1/(x + T),
- * good to a rounding; below, by the definitions. */
+/* From x = 3 on by the tail T = (1/2)/(x + 1/(x + (3/2)/(x + ... of the continued fraction sqrt(pi) erfcx(x) = 1/(x +
+ * T), good to a rounding; below, by the definitions. */
 LOBE_FN lobe_real lobe_erfcx_tail(lobe_real x)
 {
 	lobe_real t = 0.0;

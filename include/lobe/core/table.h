@@ -1,9 +1,9 @@
 /* table.h - tabulated functions that a lobe carries by handle.
  *
- * A table is an array of floats on the host, whose first word is its own length in words; a lobe's parameters hold where
- * it stands. In C that is the array itself. A scene (batch.h) keeps a copy of every table its materials use in one flat
- * buffer, on the device in OpenCL, and gives its kernels handles into that. Handles are two 32-bit words, so that structs
- * that hold one have the same layout everywhere. */
+ * A table is an array of floats on the host, whose first word is its own length in words; a lobe's parameters hold
+ * where it stands. In C that is the array itself. A scene (batch.h) keeps a copy of every table its materials use in
+ * one flat buffer, on the device in OpenCL, and gives its kernels handles into that. Handles are two 32-bit words, so
+ * that structs that hold one have the same layout everywhere. */
 #ifndef LOBE_CORE_TABLE_H
 #define LOBE_CORE_TABLE_H
 

@@ -3,10 +3,10 @@
  * Belcour and Barla 2017, "A practical extension to microfacet theory for the modeling of varying iridescence". Airy's
  * reflectance (airy.h) of one polarisation is a Fourier series in the optical path OPD over the wavelength,
  *	1 - R = A (1 + 2 Re sum_m z^m e^(i m 2 pi OPD/wavelength)),   z = -r12 r23,   A = T12 T23/(1 - |z|^2),
- * and what a sensor of Gaussian sensitivity over 1/wavelength makes of each term is known in closed form: a factor S_m, the
- * Fourier transform of its sensitivity at m OPD. The sensors are those of the paper, four Gaussians that fit the CIE 1931
- * observer, here turned into linear sRGB whose white is light of equal energy (Bradford), each channel's weights adding
- * up to 1.
+ * and what a sensor of Gaussian sensitivity over 1/wavelength makes of each term is known in closed form: a factor S_m,
+ * the Fourier transform of its sensitivity at m OPD. The sensors are those of the paper, four Gaussians that fit the
+ * CIE 1931 observer, here turned into linear sRGB whose white is light of equal energy (Bradford), each channel's
+ * weights adding up to 1.
  *
  * Where this differs from the paper: amplitudes stay complex, so no phase is taken out of them and put back; and the
  * series is not cut off. Its first four terms are exact, the rest is summed as the geometric series that they go on as,
@@ -15,11 +15,12 @@
  * without a blend of the index towards 1, and so is one of index 1; a thick film's colour goes to that of A.
  *
  * Largest distance from the spectral integral with the same sensitivities, film index 1 to 2.5, thickness 0 to 1500 nm,
- * cosine .001 to 1: over the metals of optics.def .063 (mean 1.7e-4; at cosines above .3: .011), over dielectrics of index
- * 1 to 3 .013 (mean 8e-6; above .3: 5e-4). At thickness 0 single precision is off by 1.4e-6 (tests/test_thin_film.c).
+ * cosine .001 to 1: over the metals of optics.def .063 (mean 1.7e-4; at cosines above .3: .011), over dielectrics of
+ * index 1 to 3 .013 (mean 8e-6; above .3: 5e-4). At thickness 0 single precision is off by 1.4e-6
+ * (tests/test_thin_film.c).
  *
- * Saturated interference colours lie outside of sRGB's gamut: results are clamped to [0, 1]. Without a spectrum the base
- * is one index per channel. Lengths in nanometres, indices over that of the outside, film index >= 1. */
+ * Saturated interference colours lie outside of sRGB's gamut: results are clamped to [0, 1]. Without a spectrum the
+ * base is one index per channel. Lengths in nanometres, indices over that of the outside, film index >= 1. */
 #ifndef LOBE_CORE_THIN_FILM_H
 #define LOBE_CORE_THIN_FILM_H
 
@@ -126,8 +127,8 @@ LOBE_FN lobe_film_series lobe_film_series_make(lobe_real opd)
 
 /* One polarisation of one channel: z and the distance 1 - Re z, R and 1 - R of a thick film.
  *
- * Both interfaces of a dense film reflect nearly all, z comes near 1, and the series is as large as 1/(1 - z). Then
- * 1 - Re z is (1 - (Re z)^2)/(1 + Re z), where 1 - (Re z)^2 = (1 - |z|^2) + (Im z)^2 is made of what T12 and T23 know. */
+ * Both interfaces of a dense film reflect nearly all, z comes near 1, and the series is as large as 1/(1 - z). Then 1 -
+ * Re z is (1 - (Re z)^2)/(1 + Re z), where 1 - (Re z)^2 = (1 - |z|^2) + (Im z)^2 is made of what T12 and T23 know. */
 typedef struct {
 	lobe_complex z;
 	lobe_real less_re, mean_r, mean_t;
@@ -224,8 +225,8 @@ typedef struct {
 	lobe_real mean_reflectance, mean_transmittance;
 } lobe_film_fresnel;
 
-/* index of film and base, eta >= 1, over the outside. c: cosine outside. The reflectance from inside the base is the same at
- * the refracted cosine, and 1 beyond the angle of total reflection. */
+/* index of film and base, eta >= 1, over the outside. c: cosine outside. The reflectance from inside the base is the
+ * same at the refracted cosine, and 1 beyond the angle of total reflection. */
 LOBE_FN lobe_film_fresnel lobe_thin_film_dielectric_rgb(lobe_real c, lobe_film film, lobe_real eta)
 {
 	const lobe_film_top top = lobe_film_top_make(c, film.index);

@@ -20,8 +20,8 @@ LOBE_FN lobe_real lobe_sin_turn_rest(lobe_real turn, lobe_real square)
 
 /* Sine and cosine of 2 pi u for |u| <= 2^16, reduced exactly, so the zeros and +-1 at multiples of a quarter are exact.
  *
- * Adding 1.5*2^21 rounds to quarters, and their number is in the last bits of the sum. 12 floating-point operations, 7 of
- * them fma, and 11 on integers. */
+ * Adding 1.5*2^21 rounds to quarters, and their number is in the last bits of the sum. 12 floating-point operations, 7
+ * of them fma, and 11 on integers. */
 LOBE_FN lobe_sincos lobe_sincos_2pi_small(lobe_real u)
 {
 	const lobe_real quarters = LOBE_R(0x1.8p+21);

@@ -102,9 +102,10 @@ LOBE_FN lobe_vec2 lobe_cosine_hemisphere_inverse(lobe_vec3 w)
 	return lobe_concentric_disk_inverse(lobe_vec2_make(w.x, w.y));
 }
 
-/* Point uniform over the cap radius - z <= height about +z of a sphere; height in (0, 2 radius]. u.x goes round, u.y from
- * the pole to the rim. Off the axis by the root of h (2 radius - h), h = u.y height, whose second factor is what is left of
- * the sphere below the cap and of the cap below the point: two terms that keep their precision at the far pole. */
+/* Point uniform over the cap radius - z <= height about +z of a sphere; height in (0, 2 radius]. u.x goes round, u.y
+ * from the pole to the rim. Off the axis by the root of h (2 radius - h), h = u.y height, whose second factor is what
+ * is left of the sphere below the cap and of the cap below the point: two terms that keep their precision at the far
+ * pole. */
 LOBE_FN lobe_vec3 lobe_sphere_cap(lobe_vec2 u, lobe_real radius, lobe_real height)
 {
 	const lobe_real below = lobe_fma(LOBE_R(1.0) - u.y, height, (radius + radius) - height);

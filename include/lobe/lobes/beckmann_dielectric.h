@@ -34,8 +34,8 @@ LOBE_FN lobe_real lobe_beckmann_dielectric_pdf(lobe_beckmann_dielectric p, lobe_
 	return lobe_rough_dielectric_pdf(LOBE_NDF_BECKMANN, p, wo, wi);
 }
 
-/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the
- * light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is 1 - F of the sampled facet. */
+/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends
+ * the light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is 1 - F of the sampled facet. */
 LOBE_FN lobe_sample lobe_beckmann_dielectric_sample(lobe_beckmann_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
 	return lobe_rough_dielectric_sample(LOBE_NDF_BECKMANN, p, wo, u);

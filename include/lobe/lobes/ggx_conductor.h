@@ -1,7 +1,7 @@
 /* ggx_conductor.h - a rough metal: GGX microsurface, exact conductor Fresnel, single scattering.
  *
- * The model and its parameters: microfacet/conductor.h; its distribution: microfacet/ggx.h. Opaque and reciprocal. Light
- * that would scatter more than once on the microsurface is lost (at alpha 1 up to 69 %). */
+ * The model and its parameters: microfacet/conductor.h; its distribution: microfacet/ggx.h. Opaque and reciprocal.
+ * Light that would scatter more than once on the microsurface is lost (at alpha 1 up to 69 %). */
 #ifndef LOBE_LOBES_GGX_CONDUCTOR_H
 #define LOBE_LOBES_GGX_CONDUCTOR_H
 
@@ -9,8 +9,8 @@
 
 typedef lobe_rough_conductor lobe_ggx_conductor;
 
-/* alpha_x, alpha_y: widths along tangent and bitangent, clamped to [LOBE_ALPHA_MIN, 1]. eta, k: complex index n + ik per
- * channel over that of the outside, eta in [1/1000, 1000], k in [0, 1000]. */
+/* alpha_x, alpha_y: widths along tangent and bitangent, clamped to [LOBE_ALPHA_MIN, 1]. eta, k: complex index n + ik
+ * per channel over that of the outside, eta in [1/1000, 1000], k in [0, 1000]. */
 LOBE_FN lobe_ggx_conductor lobe_ggx_conductor_make(lobe_real alpha_x, lobe_real alpha_y, lobe_rgb eta, lobe_rgb k)
 {
 	return lobe_rough_conductor_make(alpha_x, alpha_y, eta, k);

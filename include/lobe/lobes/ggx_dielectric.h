@@ -9,8 +9,8 @@
 
 typedef lobe_rough_dielectric lobe_ggx_dielectric;
 
-/* alpha_x, alpha_y: widths along tangent and bitangent, clamped to [LOBE_ALPHA_MIN, 1]. eta: index below over index above
- * the surface, in [1/1000, 1000]. Carries radiance; see lobe_ggx_dielectric_transport. */
+/* alpha_x, alpha_y: widths along tangent and bitangent, clamped to [LOBE_ALPHA_MIN, 1]. eta: index below over index
+ * above the surface, in [1/1000, 1000]. Carries radiance; see lobe_ggx_dielectric_transport. */
 LOBE_FN lobe_ggx_dielectric lobe_ggx_dielectric_make(lobe_real alpha_x, lobe_real alpha_y, lobe_real eta)
 {
 	return lobe_rough_dielectric_make(alpha_x, alpha_y, eta);
@@ -34,8 +34,8 @@ LOBE_FN lobe_real lobe_ggx_dielectric_pdf(lobe_ggx_dielectric p, lobe_vec3 wo, l
 	return lobe_rough_dielectric_pdf(LOBE_NDF_GGX, p, wo, wi);
 }
 
-/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the
- * light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is 1 - F of the sampled facet. */
+/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends
+ * the light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is 1 - F of the sampled facet. */
 LOBE_FN lobe_sample lobe_ggx_dielectric_sample(lobe_ggx_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
 	return lobe_rough_dielectric_sample(LOBE_NDF_GGX, p, wo, u);

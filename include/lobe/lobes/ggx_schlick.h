@@ -1,8 +1,8 @@
 /* ggx_schlick.h - what engines shade with: GGX microsurface, Schlick's Fresnel from f0 to f90, single scattering.
  *
  * The model and its parameters: microfacet/schlick.h; its distribution: microfacet/ggx.h. Opaque and reciprocal. For a
- * dielectric coat f0 = ((eta - 1)/(eta + 1))^2 and f90 = 1; for a metal f0 is its colour. How far Schlick's curve is from
- * the exact ones: core/fresnel_schlick.h. Light that would scatter more than once on the microsurface is lost. */
+ * dielectric coat f0 = ((eta - 1)/(eta + 1))^2 and f90 = 1; for a metal f0 is its colour. How far Schlick's curve is
+ * from the exact ones: core/fresnel_schlick.h. Light that would scatter more than once on the microsurface is lost. */
 #ifndef LOBE_LOBES_GGX_SCHLICK_H
 #define LOBE_LOBES_GGX_SCHLICK_H
 

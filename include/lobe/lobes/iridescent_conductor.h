@@ -9,8 +9,8 @@
 #include "../core/thin_film.h"
 #include "../microfacet/reflection.h"
 
-/* stretch: widths along tangent and bitangent. eta, k: complex index of the metal per channel. film: its thickness [nm],
- * in [0, 1e6], and its index, in [1, 1000]. All indices are over that of the outside. */
+/* stretch: widths along tangent and bitangent. eta, k: complex index of the metal per channel. film: its thickness
+ * [nm], in [0, 1e6], and its index, in [1, 1000]. All indices are over that of the outside. */
 typedef struct {
 	lobe_stretch stretch;
 	lobe_rgb eta, k;

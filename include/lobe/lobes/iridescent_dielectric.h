@@ -2,8 +2,8 @@
  *
  * The microsurface, both events and both sides are those of microfacet/dielectric.h, with GGX; the share that a facet
  * reflects is that of the film in RGB (core/thin_film.h: Belcour and Barla 2017), and the rest passes, bent by the base
- * alone. Which of the two a sample is, the mean of the share over the channels decides; its weight carries the colour, so
- * one channel of it can be up to 3 while the mean of the three is at most 1. At thickness 0 it is ggx_dielectric to
+ * alone. Which of the two a sample is, the mean of the share over the channels decides; its weight carries the colour,
+ * so one channel of it can be up to 3 while the mean of the three is at most 1. At thickness 0 it is ggx_dielectric to
  * rounding. A film does not turn light, so with eta = 1 what passes is a delta event, straight on. */
 #ifndef LOBE_LOBES_IRIDESCENT_DIELECTRIC_H
 #define LOBE_LOBES_IRIDESCENT_DIELECTRIC_H
@@ -19,8 +19,8 @@ typedef struct {
 } lobe_iridescent_dielectric;
 
 /* Clamps alpha_x and alpha_y to [LOBE_ALPHA_MIN, 1]. thickness: [nm], in [0, 1e6]. film_index and eta: film and inside
- * over the outside, in [1/1000, 1000]; film_index >= min(1, eta), as light would not get across a film that is rarer than
- * both sides. Carries radiance; see lobe_iridescent_dielectric_transport. */
+ * over the outside, in [1/1000, 1000]; film_index >= min(1, eta), as light would not get across a film that is rarer
+ * than both sides. Carries radiance; see lobe_iridescent_dielectric_transport. */
 LOBE_FN lobe_iridescent_dielectric lobe_iridescent_dielectric_make(lobe_real alpha_x, lobe_real alpha_y,
 								   lobe_real thickness, lobe_real film_index,
 								   lobe_real eta)
@@ -41,8 +41,8 @@ LOBE_FN lobe_iridescent_dielectric lobe_iridescent_dielectric_transport(lobe_iri
 	return p;
 }
 
-/* What a facet does to light, from its interface without the film. The film is looked at from the thinner medium: at total
- * reflection from within the cosine there is 0, where everything is reflected. */
+/* What a facet does to light, from its interface without the film. The film is looked at from the thinner medium: at
+ * total reflection from within the cosine there is 0, where everything is reflected. */
 LOBE_FN lobe_film_fresnel lobe_iridescent_dielectric_film(lobe_iridescent_dielectric p, lobe_rough_dielectric_view v,
 							  lobe_fresnel_interface at)
 {
@@ -99,8 +99,9 @@ LOBE_FN lobe_real lobe_iridescent_dielectric_pdf(lobe_iridescent_dielectric p, l
 	return lobe_rough_dielectric_pdf_at(v, m, lobe_iridescent_dielectric_share(p, v, m).mean);
 }
 
-/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the
- * light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is the mean transmittance of the sampled facet. */
+/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends
+ * the light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is the mean transmittance of the sampled
+ * facet. */
 LOBE_FN lobe_sample lobe_iridescent_dielectric_sample(lobe_iridescent_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
 	const lobe_uint ndf = LOBE_NDF_GGX;

@@ -2,9 +2,10 @@
  * Fresnel term, sampling strategy. To compare models with, not for speed: what has settled is better served by
  * ggx_conductor and its like.
  *
- * Cook and Torrance 1982 as Heitz 2014 has it: f = F D G2/(4 z_o z_i). Opaque: 0 when either direction is at or below the
- * surface. Reciprocal where the map has no shear; with one, directions are masked as the tilted mean plane sees them
- * (microfacet/masking.h). With Smith's or the V-cavities' masking no energy is gained; the other maskings do not care.
+ * Cook and Torrance 1982 as Heitz 2014 has it: f = F D G2/(4 z_o z_i). Opaque: 0 when either direction is at or below
+ * the surface. Reciprocal where the map has no shear; with one, directions are masked as the tilted mean plane sees
+ * them (microfacet/masking.h). With Smith's or the V-cavities' masking no energy is gained; the other maskings do not
+ * care.
  *
  *	lobe_microsurface s = lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), map);
  *	s = lobe_microsurface_joint(s, LOBE_JOINT_SEPARABLE, LOBE_ACROSS_SEPARABLE);
@@ -68,7 +69,8 @@ LOBE_FN_APART lobe_real lobe_microfacet_conductor_pdf(lobe_microfacet_conductor 
 	return ok ? lobe_finite_or_zero(r.sampled) : LOBE_R(0.0);
 }
 
-/* Uses u.x and u.y, and with LOBE_STRATEGY_VCAVITY u.z. No sample when the facet is hidden or reflects below the surface.
+/* Uses u.x and u.y, and with LOBE_STRATEGY_VCAVITY u.z. No sample when the facet is hidden or reflects below the
+ * surface.
  */
 LOBE_FN_APART lobe_sample lobe_microfacet_conductor_sample(lobe_microfacet_conductor p, lobe_vec3 wo, lobe_vec3 u)
 {

@@ -5,8 +5,8 @@
  * Walter et al. 2007. From both sides: from below all is seen through the point: wo and wi are turned round, the facets
  * stay, the indices change places. Reciprocal (with the square of the index) where the map has no shear.
  *
- * Facets are sampled, then reflect with probability F (the mean of its colours), or refract. UNIFORM and COSINE choose a
- * direction on either side; where no facet can take the light there is no sample and pdf is 0. BOUNDED_CAP is
+ * Facets are sampled, then reflect with probability F (the mean of its colours), or refract. UNIFORM and COSINE choose
+ * a direction on either side; where no facet can take the light there is no sample and pdf is 0. BOUNDED_CAP is
  * VISIBLE_CAP here, since refraction needs the facets that the bound leaves out.
  *
  * Where refraction is too narrow for float directions (microfacet/delta.h) it is an event of
@@ -19,8 +19,8 @@
 #include "../microfacet/delta.h"
 #include "../microfacet/scatter.h"
 
-/* strategy: LOBE_STRATEGY_*. eta: index below over index above the surface, in [1/1000, 1000]; inv_eta is 1/eta. transport:
- * LOBE_TRANSPORT_*. delta: refraction is a delta event. */
+/* strategy: LOBE_STRATEGY_*. eta: index below over index above the surface, in [1/1000, 1000]; inv_eta is 1/eta.
+ * transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. */
 typedef struct {
 	lobe_microsurface surface;
 	lobe_fresnel_model fresnel;
@@ -131,8 +131,8 @@ LOBE_FN_APART lobe_real lobe_microfacet_dielectric_pdf(lobe_microfacet_dielectri
 }
 
 /* The sample that passes through facet m (on the surface of width 1) as a delta event; c: o.m. Nothing is masked, as in
- * microfacet/dielectric.h, so that visible facets weigh 1 and all others what makes them so: D |o.m|/sigma over their own
- * density. */
+ * microfacet/dielectric.h, so that visible facets weigh 1 and all others what makes them so: D |o.m|/sigma over their
+ * own density. */
 LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_dielectric p,
 							      lobe_microfacet_dielectric_view v, lobe_seen o,
 							      lobe_vec3 facet, lobe_vec3 m, lobe_real c,
@@ -160,9 +160,9 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 				  LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA);
 }
 
-/* Uses u.x and u.y for the facet, u.z to choose between reflection and refraction (with LOBE_STRATEGY_VCAVITY between the
- * sides of a cavity first). No sample when the facet is hidden or sends the light to the wrong side of the surface. With
- * LOBE_EVENT_DELTA pdf is the share of samples that the facet transmits. */
+/* Uses u.x and u.y for the facet, u.z to choose between reflection and refraction (with LOBE_STRATEGY_VCAVITY between
+ * the sides of a cavity first). No sample when the facet is hidden or sends the light to the wrong side of the surface.
+ * With LOBE_EVENT_DELTA pdf is the share of samples that the facet transmits. */
 LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_sample(lobe_microfacet_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
 	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);

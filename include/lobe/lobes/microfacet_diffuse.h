@@ -1,5 +1,5 @@
-/* microfacet_diffuse.h - a rough surface of ideal diffuse facets, of which everything is chosen at run time: distribution,
- * linear map, masking (microfacet/microsurface.h).
+/* microfacet_diffuse.h - a rough surface of ideal diffuse facets, of which everything is chosen at run time:
+ * distribution, linear map, masking (microfacet/microsurface.h).
  *
  * Heitz 2014, eq. 31, for facets with the BRDF reflectance/pi: there is no half vector, and every facet that both
  * directions see has its part,
@@ -93,9 +93,9 @@ LOBE_FN lobe_real lobe_microfacet_diffuse_balanced(lobe_microsurface s, lobe_see
 	return lobe_min(m.o, m.i) > LOBE_R(0.0) ? f : LOBE_R(0.0);
 }
 
-/* f |cos theta_i| [1/sr], by LOBE_DIFFUSE_FACETS facets visible from wo and as many from wi: off by up to .023 of what the
- * smooth surface would have, reflectance/pi cos theta_i (tests/test_microfacet_diffuse.c). Reciprocal where the masking
- * is. */
+/* f |cos theta_i| [1/sr], by LOBE_DIFFUSE_FACETS facets visible from wo and as many from wi: off by up to .023 of what
+ * the smooth surface would have, reflectance/pi cos theta_i (tests/test_microfacet_diffuse.c). Reciprocal where the
+ * masking is. */
 LOBE_FN lobe_rgb lobe_microfacet_diffuse_eval(lobe_microfacet_diffuse p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_real middle = LOBE_R(0.5), scale = LOBE_R(1.0) / LOBE_R(55.0);

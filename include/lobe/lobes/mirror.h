@@ -1,5 +1,5 @@
-/* mirror.h - the ideal mirror: all light goes to the mirrored direction, whatever the angle. Opaque, on both sides of the
- * surface. A delta lobe: eval and pdf are 0, and the one sample has probability 1 and weight reflectance. */
+/* mirror.h - the ideal mirror: all light goes to the mirrored direction, whatever the angle. Opaque, on both sides of
+ * the surface. A delta lobe: eval and pdf are 0, and the one sample has probability 1 and weight reflectance. */
 #ifndef LOBE_LOBES_MIRROR_H
 #define LOBE_LOBES_MIRROR_H
 

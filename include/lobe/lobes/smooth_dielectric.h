@@ -1,9 +1,9 @@
 /* smooth_dielectric.h - polished glass: reflection and refraction by a smooth interface, from both sides.
  *
- * Fresnel (core/fresnel.h) decides between the two, Snell's law bends. The limit of ggx_dielectric for alpha to 0. A delta
- * lobe: eval and pdf are 0; a sample's pdf is the probability of its event, F or 1 - F, and its weight is 1, but for
- * refracted radiance, which is scaled by the square of the index (core/event.h). eta = 1 is no interface: light passes
- * straight, to the bit. */
+ * Fresnel (core/fresnel.h) decides between the two, Snell's law bends. The limit of ggx_dielectric for alpha to 0. A
+ * delta lobe: eval and pdf are 0; a sample's pdf is the probability of its event, F or 1 - F, and its weight is 1, but
+ * for refracted radiance, which is scaled by the square of the index (core/event.h). eta = 1 is no interface: light
+ * passes straight, to the bit. */
 #ifndef LOBE_LOBES_SMOOTH_DIELECTRIC_H
 #define LOBE_LOBES_SMOOTH_DIELECTRIC_H
 
@@ -51,8 +51,9 @@ LOBE_FN lobe_real lobe_smooth_dielectric_pdf(lobe_smooth_dielectric p, lobe_vec3
 
 /* Uses u.z: below F it reflects. No sample for a wo in the surface.
  *
- * The refracted tangent is that of wo over e, the cosine Fresnel's own, which does not cancel near total reflection; both
- * together are unit but for what a rounding of wo's length becomes towards the thinner side, which is divided out. */
+ * The refracted tangent is that of wo over e, the cosine Fresnel's own, which does not cancel near total reflection;
+ * both together are unit but for what a rounding of wo's length becomes towards the thinner side, which is divided
+ * out. */
 LOBE_FN lobe_sample lobe_smooth_dielectric_sample(lobe_smooth_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);

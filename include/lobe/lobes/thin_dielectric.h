@@ -2,10 +2,10 @@
  *
  * With F of one interface, T = 1 - F, all interreflections inside the slab add up to
  *	R' = F + T^2 F/(1 - F^2) = 2F/(1 + F),   T' = T^2/(1 - F^2) = T/(1 + F)
- * and what passes goes straight on, in the medium that it came from: radiance and importance alike. Both sides alike. The
- * slab is thick against the coherence length of light (else: iridescent_dielectric) and does not absorb. F is that of
- * unpolarised light, as in other renderers; with each polarisation summed by itself R' of glass would be lower, by at most
- * .0222, at 74 degrees (tests/test_delta.c).
+ * and what passes goes straight on, in the medium that it came from: radiance and importance alike. Both sides alike.
+ * The slab is thick against the coherence length of light (else: iridescent_dielectric) and does not absorb. F is that
+ * of unpolarised light, as in other renderers; with each polarisation summed by itself R' of glass would be lower, by
+ * at most .0222, at 74 degrees (tests/test_delta.c).
  *
  * A delta lobe: eval and pdf are 0; a sample's pdf is the probability of its event and its weight is 1. */
 #ifndef LOBE_LOBES_THIN_DIELECTRIC_H

@@ -103,8 +103,8 @@ LOBE_FN lobe_real lobe_beckmann_t(lobe_vec3 v)
 /* Walter's rational Lambda (2007, section 5.2), in place of hidden: an alternative that needs no exponential. It is 0
  * from c = 1.6 on, where the fit would rise again. G1 is off by at most .0031 (at c = 1.34).
  *
- * The numerator, 1 - 1.259 c + .396 c^2, is written as .396 (c - 1.548133)(c - 1.631160), each root the sum of two floats: it
- * ends at the first of them, and as a sum it would lose all its digits there. */
+ * The numerator, 1 - 1.259 c + .396 c^2, is written as .396 (c - 1.548133)(c - 1.631160), each root the sum of two
+ * floats: it ends at the first of them, and as a sum it would lose all its digits there. */
 LOBE_FN lobe_real lobe_beckmann_hidden_rational(lobe_vec3 v)
 {
 	const lobe_real r = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
@@ -124,8 +124,8 @@ typedef struct {
 	lobe_real c, ierfc, n, q, share, rest;
 } lobe_beckmann_slope;
 
-/* One step of Householder's method of fourth order, whose error goes with the fifth power of the last. The density
- * p = 2 f exp(-X^2)/(sqrt(pi) n), f = X + c, has derivatives that are p times rational functions; with e = (S - share)/p
+/* One step of Householder's method of fourth order, whose error goes with the fifth power of the last. The density p =
+ * 2 f exp(-X^2)/(sqrt(pi) n), f = X + c, has derivatives that are p times rational functions; with e = (S - share)/p
  * the step is
  *	e (1 + b + c/6)/(1 + 3/2 b + b^2/4 + c/3 + d/24),   b = e p'/p,   c = e^2 p''/p,   d = e^3 p'''/p
  * For X < 0 S - share is rest - (1 - S), so that both tails keep their precision. */
@@ -157,16 +157,16 @@ LOBE_FN lobe_real lobe_beckmann_slope_step(lobe_beckmann_slope s, lobe_real x)
 	return lobe_abs(step) < LOBE_R(0.75) * f ? x + step : x;
 }
 
-/* A start within .08 of X for share and rest above 1e-3, and beyond within a quarter of f = X + c and a fifth of erfc(X):
- * enough for the step to leave 4e-8 of the distribution. Where c > 3 and rest < 2e-5 it is up to .6 off, and 8e-8 are
- * left.
+/* A start within .08 of X for share and rest above 1e-3, and beyond within a quarter of f = X + c and a fifth of
+ * erfc(X): enough for the step to leave 4e-8 of the distribution. Where c > 3 and rest < 2e-5 it is up to .6 off, and
+ * 8e-8 are left.
  *
  * With y = erf(X) and y0 = erf(-c), w = (y - y0)/(1 - y0) goes from 0 to 1; 1 - S begins as w^2/m and is w in the limit
  * of normal incidence. 1 - S = w^2/(m + (1 - m) w), a quadratic equation, is right there and at w = 1. 1 + y0 and m are
- * ierfc(c) times polynomials up to c = 7/2, from where on X hardly reaches that far down. Back to X by an inverse of erf
- * as x p(sqrt(-log(1 - x^2))), to 3.5e-5. This is too low by up to .22, as a rational function of f and q tells that
- * vanishes with f^2 and q. X + c is at least erf's increase over its largest slope.
- * Fitted like the polynomials of core/erf.h; the rational function by iterated linear least squares. */
+ * ierfc(c) times polynomials up to c = 7/2, from where on X hardly reaches that far down. Back to X by an inverse of
+ * erf as x p(sqrt(-log(1 - x^2))), to 3.5e-5. This is too low by up to .22, as a rational function of f and q tells
+ * that vanishes with f^2 and q. X + c is at least erf's increase over its largest slope. Fitted like the polynomials of
+ * core/erf.h; the rational function by iterated linear least squares. */
 LOBE_FN lobe_real lobe_beckmann_slope_start(lobe_beckmann_slope s)
 {
 	const lobe_real one = LOBE_R(1.0), two = LOBE_R(2.0);
@@ -238,7 +238,8 @@ LOBE_FN lobe_real lobe_beckmann_slope_above(lobe_vec3 v, lobe_real u)
 /* X - c, c = |v.z|/r, where the complement of the distribution of X is u, for v.z < 0: there X begins at c. With
  * f = X - c and l = f (f + 2 c), all scaled by exp(c^2) so that nothing underflows,
  *	S = exp(-l) (ierfcx(X) + f erfcx(X))/ierfcx(c),
- * S = exp(-l) at the horizon. The start adds to l = -log u what makes it right for u near 1, and nearly so elsewhere. */
+ * S = exp(-l) at the horizon. The start adds to l = -log u what makes it right for u near 1, and nearly so
+ * elsewhere. */
 LOBE_FN lobe_real lobe_beckmann_slope_below(lobe_real c, lobe_real u)
 {
 	const lobe_real one = LOBE_R(1.0);

@@ -4,8 +4,8 @@
 
 #include "reflection.h"
 
-/* stretch: widths along tangent and bitangent. eta, k: complex index n + ik per channel over that of the outside, eta in
- * [1/1000, 1000], k in [0, 1000] (core/optics.h has those of real metals). */
+/* stretch: widths along tangent and bitangent. eta, k: complex index n + ik per channel over that of the outside, eta
+ * in [1/1000, 1000], k in [0, 1000] (core/optics.h has those of real metals). */
 typedef struct {
 	lobe_stretch stretch;
 	lobe_rgb eta, k;

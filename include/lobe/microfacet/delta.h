@@ -4,7 +4,8 @@
 
 #include "../core/vec.h"
 
-/* A facet turns light by about |eta - 1|, so refracted light spreads over alpha |eta - 1|: 32 roundings of a unit vector. */
+/* A facet turns light by about |eta - 1|, so refracted light spreads over alpha |eta - 1|: 32 roundings of a unit
+ * vector. */
 #define LOBE_DIELECTRIC_DELTA LOBE_R(2e-6)
 
 /* alpha: the wider width. */

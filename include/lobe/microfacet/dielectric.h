@@ -1,12 +1,13 @@
-/* dielectric.h - rough glass: reflection and refraction by a microsurface, from both sides. The body of <ndf>_dielectric.
+/* dielectric.h - rough glass: reflection and refraction by a microsurface, from both sides. The body of
+ * <ndf>_dielectric.
  *
- * Walter et al. 2007, "Microfacet models for refraction through rough surfaces", with visible-normal sampling (Heitz and
- * d'Eon 2014; Dupuy and Benyoub 2023): a visible facet m, then reflection with probability F(o.m), else refraction.
+ * Walter et al. 2007, "Microfacet models for refraction through rough surfaces", with visible-normal sampling (Heitz
+ * and d'Eon 2014; Dupuy and Benyoub 2023): a visible facet m, then reflection with probability F(o.m), else refraction.
  *
- * Joint masking: height-correlated on one side (Heitz 2014 eq. 99). Across the surface G1(o) G1(i), as Walter: the exact
- * value for Smith's uncorrelated heights is Beta(1 + Lambda_o, 1 + Lambda_i), to which the product is nearer than the
- * 1/(1 + Lambda_o + Lambda_i) of one side; tests/test_lobes_energy.c measures the distance. Single scattering: what would
- * hit the microsurface again is lost.
+ * Joint masking: height-correlated on one side (Heitz 2014 eq. 99). Across the surface G1(o) G1(i), as Walter: the
+ * exact value for Smith's uncorrelated heights is Beta(1 + Lambda_o, 1 + Lambda_i), to which the product is nearer than
+ * the 1/(1 + Lambda_o + Lambda_i) of one side; tests/test_lobes_energy.c measures the distance. Single scattering: what
+ * would hit the microsurface again is lost.
  *
  * Near eta = 1. A facet turns light by about |eta - 1|, so refracted light spreads over alpha |eta - 1|. Where that is
  * below LOBE_DIELECTRIC_DELTA, 32 roundings of a unit vector, no float direction can resolve the lobe: refraction is
@@ -23,9 +24,9 @@
 #include "ndf.h"
 #include "stretch.h"
 
-/* ndf: LOBE_NDF_*, a constant. stretch: widths along tangent and bitangent. eta: index below over index above the surface,
- * in [1/1000, 1000]; inv_eta is 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. dense: one of the
- * indices is above twice the other, so that from within 1 - sin^2 is what is left of two numbers near 1. */
+/* ndf: LOBE_NDF_*, a constant. stretch: widths along tangent and bitangent. eta: index below over index above the
+ * surface, in [1/1000, 1000]; inv_eta is 1/eta. transport: LOBE_TRANSPORT_*. delta: refraction is a delta event. dense:
+ * one of the indices is above twice the other, so that from within 1 - sin^2 is what is left of two numbers near 1. */
 typedef struct {
 	lobe_stretch stretch;
 	lobe_real eta, inv_eta;
@@ -67,12 +68,12 @@ LOBE_FN lobe_real lobe_rough_dielectric_t(lobe_uint ndf, lobe_rough_dielectric p
 	return lobe_ndf_t(ndf, lobe_stretch_direction(p.stretch, w));
 }
 
-/* The interface seen from one side. at: without an angle yet; its eta is the far index over the near one, e. scale: of what
- * refraction carries. A refracted direction is -1/e times w + bend m, whose squared length is e^2 and what |w|^2 is above 1,
- * w being a few ulp off. Where e < 1, which makes more of that, a step of Newton's method takes it off again: 1/e less step
- * times that excess. From within dense glass roundings count as well, up to 1e-4 where e is 1/1000, and the length itself is
- * taken: step |w + bend m|^2 + start. At e = 1 exactly -w is left. g2_first and g2_second add up to k; where that is near -1,
- * without the rounding that would be one of e. */
+/* The interface seen from one side. at: without an angle yet; its eta is the far index over the near one, e. scale: of
+ * what refraction carries. A refracted direction is -1/e times w + bend m, whose squared length is e^2 and what |w|^2
+ * is above 1, w being a few ulp off. Where e < 1, which makes more of that, a step of Newton's method takes it off
+ * again: 1/e less step times that excess. From within dense glass roundings count as well, up to 1e-4 where e is
+ * 1/1000, and the length itself is taken: step |w + bend m|^2 + start. At e = 1 exactly -w is left. g2_first and
+ * g2_second add up to k; where that is near -1, without the rounding that would be one of e. */
 typedef struct {
 	lobe_fresnel_interface at;
 	lobe_real inv_e, scale, step, start, g2_first, g2_second;
@@ -93,7 +94,8 @@ LOBE_FN lobe_rough_dielectric_side lobe_rough_dielectric_side_make(lobe_real e, 
 	return s;
 }
 
-/* With wo above. Each side is worked out for itself, which takes it out of loops over one material. t_o: lobe_ndf_t of o. */
+/* With wo above. Each side is worked out for itself, which takes it out of loops over one material. t_o: lobe_ndf_t of
+ * o. */
 typedef struct {
 	lobe_vec3 o;
 	lobe_real t_o;
@@ -118,12 +120,12 @@ LOBE_FN lobe_rough_dielectric_view lobe_rough_dielectric_view_make(lobe_uint ndf
 	return v;
 }
 
-/* The facet that takes o to i, by the unnormalised half vector H = o + e_r i, e_r = 1 for reflection: at is its interface
- * for normal H. density: its density dm/di D(m) o.m/sigma(o) [1/sr]. Both events are one formula,
+/* The facet that takes o to i, by the unnormalised half vector H = o + e_r i, e_r = 1 for reflection: at is its
+ * interface for normal H. density: its density dm/di D(m) o.m/sigma(o) [1/sr]. Both events are one formula,
  *	D(m) o.m |dm/di| = norm e_r^2 |o.H| |i.H| D1(H)
- * in which every power of |H| has cancelled (D1: lobe_ndf_density of the facet). side, seen: > 0 where i is on its side, and
- * where both directions see the front of the facet, or for a refraction one its front and one its back. (Numbers, as
- * compilers make more of a minimum than of a chain of truth values.) */
+ * in which every power of |H| has cancelled (D1: lobe_ndf_density of the facet). side, seen: > 0 where i is on its
+ * side, and where both directions see the front of the facet, or for a refraction one its front and one its back.
+ * (Numbers, as compilers make more of a minimum than of a chain of truth values.) */
 typedef struct {
 	lobe_fresnel_interface at;
 	lobe_real density, side, seen;
@@ -141,8 +143,8 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_make(lobe_uint n
 	const lobe_real h2 = lobe_vec3_sum(squares);
 	const lobe_real half_h2 = LOBE_R(0.5) * h2;
 	/* The facet looks up. Of a refraction the half vector knows both cosines. Of a reflection its length gives all:
-	 * c = m2/2, s^2 = m2 (1 - m2/4) and g^2 = c^2 + k m2; of dense glass from these, so that a rounding of m2 is one of the
-	 * angle and no more, and s^2 >= 0. */
+	 * c = m2/2, s^2 = m2 (1 - m2/4) and g^2 = c^2 + k m2; of dense glass from these, so that a rounding of m2 is
+	 * one of the angle and no more, and s^2 >= 0. */
 	const lobe_real m2 = p.dense != 0u ? lobe_min(h2, LOBE_R(4.0)) : h2;
 	const lobe_real half_m2 = LOBE_R(0.5) * m2;
 	const lobe_real minus_s2 = lobe_fma(LOBE_R(0.25), m2, -one);
@@ -200,8 +202,8 @@ LOBE_FN lobe_vec3 lobe_rough_dielectric_flip(lobe_vec3 wo, lobe_vec3 wi)
 	return lobe_vec3_make(wi.x, wi.y, lobe_times_sign(wi.z, wo.z));
 }
 
-/* The weight of a sample whose event has probability F or 1 - F: G2/G1(o), height-correlated for a reflection and G1(i) for
- * a refraction, with what that carries; by one division. */
+/* The weight of a sample whose event has probability F or 1 - F: G2/G1(o), height-correlated for a reflection and G1(i)
+ * for a refraction, with what that carries; by one division. */
 LOBE_FN lobe_real lobe_rough_dielectric_weight(lobe_uint ndf, lobe_rough_dielectric p, lobe_rough_dielectric_view v,
 					       lobe_vec3 i, int reflects)
 {
@@ -212,7 +214,8 @@ LOBE_FN lobe_real lobe_rough_dielectric_weight(lobe_uint ndf, lobe_rough_dielect
 	return z_i * num / den;
 }
 
-/* f |cos theta_i| [1/sr] of a facet of which the share prob is reflected or refracted: density times weight of a sample. */
+/* f |cos theta_i| [1/sr] of a facet of which the share prob is reflected or refracted: density times weight of a
+ * sample. */
 LOBE_FN lobe_real lobe_rough_dielectric_eval_at(lobe_rough_dielectric_view v, lobe_rough_dielectric_facet m,
 						lobe_real prob, lobe_real weight)
 {
@@ -273,8 +276,8 @@ LOBE_FN lobe_rough_dielectric_choice lobe_rough_dielectric_choose(lobe_uint ndf,
 	return s;
 }
 
-/* Where the light goes, with wo above: 2 (o.m) m - o or refracted. (Both are worked out before it is known which: a sample is
- * one long chain of operations that wait for each other.) */
+/* Where the light goes, with wo above: 2 (o.m) m - o or refracted. (Both are worked out before it is known which: a
+ * sample is one long chain of operations that wait for each other.) */
 LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric p, lobe_rough_dielectric_view v,
 					      lobe_rough_dielectric_choice s, int reflects)
 {
@@ -288,8 +291,8 @@ LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric p, lobe_roug
 	return lobe_vec3_select(reflects, mirrored, lobe_vec3_scale(bent, scale));
 }
 
-/* The facet of a sample as pdf finds it again. There is none for a delta event, which keeps the sampled one's interface, with
- * the density that it is given. */
+/* The facet of a sample as pdf finds it again. There is none for a delta event, which keeps the sampled one's
+ * interface, with the density that it is given. */
 LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_again(lobe_uint ndf, lobe_rough_dielectric p,
 								      lobe_rough_dielectric_view v,
 								      lobe_rough_dielectric_choice s, lobe_vec3 i,
@@ -318,8 +321,8 @@ LOBE_FN lobe_uint lobe_rough_dielectric_event(lobe_rough_dielectric p, int refle
 	return reflects ? LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY : refracts;
 }
 
-/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends the
- * light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is 1 - F of the sampled facet. */
+/* Uses u.x and u.y for the facet and u.z to choose between reflection and refraction. No sample when the facet sends
+ * the light to the wrong side of the surface. With LOBE_EVENT_DELTA pdf is 1 - F of the sampled facet. */
 LOBE_FN lobe_sample lobe_rough_dielectric_sample(lobe_uint ndf, lobe_rough_dielectric p, lobe_vec3 wo, lobe_vec3 u)
 {
 	const lobe_rough_dielectric_view v = lobe_rough_dielectric_view_make(ndf, p, wo);

@@ -126,8 +126,8 @@ LOBE_FN lobe_real lobe_distribution_sigma(lobe_distribution d, lobe_vec3 v)
 	return lobe_max(v.z, LOBE_R(0.0)) + lobe_distribution_hidden(d, v);
 }
 
-/* A normal with density D(m) m.z (Walter et al. 2007, section 5.3): (-slope, 1) with the steepness from u.x, the azimuth
- * from u.y. */
+/* A normal with density D(m) m.z (Walter et al. 2007, section 5.3): (-slope, 1) with the steepness from u.x, the
+ * azimuth from u.y. */
 LOBE_FN lobe_vec3 lobe_distribution_plain(lobe_distribution d, lobe_vec2 u)
 {
 	const lobe_real steep = lobe_sqrt(lobe_distribution_tail_inverse(d, LOBE_R(1.0) - u.x));

@@ -1,7 +1,7 @@
 /* ggx.h - GGX (Trowbridge-Reitz): the surface of a unit hemisphere, whose tangents stretch to any width.
  *
- * Trowbridge and Reitz 1975; Walter et al. 2007; Heitz 2014, "Understanding the masking-shadowing function". The functions
- * are those that facet.h explains. With v stretched, t(v) = |v|: Lambda = (|v|/|v.z| - 1)/2. */
+ * Trowbridge and Reitz 1975; Walter et al. 2007; Heitz 2014, "Understanding the masking-shadowing function". The
+ * functions are those that facet.h explains. With v stretched, t(v) = |v|: Lambda = (|v|/|v.z| - 1)/2. */
 #ifndef LOBE_MICROFACET_GGX_H
 #define LOBE_MICROFACET_GGX_H
 
@@ -39,9 +39,10 @@ LOBE_FN lobe_real lobe_ggx_tail(lobe_real t2) { return LOBE_R(1.0) / (LOBE_R(1.0
 /* q in (0, 1]. */
 LOBE_FN lobe_real lobe_ggx_tail_inverse(lobe_real q) { return (LOBE_R(1.0) - q) / q; }
 
-/* The normal that the part of the cap above u.y makes; height: t + v.z, r2: lobe_ggx_r2. In lobe_sphere_cap's terms, all t
- * times as large: the point's z and v.z add up to (1 - u.y) height, which stays above 0, and since what the cap leaves of
- * the sphere, t - v.z, is r2/height, the point is off the axis by the root of u.y (r2 + z height), without a difference. */
+/* The normal that the part of the cap above u.y makes; height: t + v.z, r2: lobe_ggx_r2. In lobe_sphere_cap's terms,
+ * all t times as large: the point's z and v.z add up to (1 - u.y) height, which stays above 0, and since what the cap
+ * leaves of the sphere, t - v.z, is r2/height, the point is off the axis by the root of u.y (r2 + z height), without a
+ * difference. */
 LOBE_FN lobe_vec3 lobe_ggx_visible_cap(lobe_vec3 v, lobe_real height, lobe_real r2, lobe_vec2 u)
 {
 	const lobe_real z = (LOBE_R(1.0) - u.y) * height;
@@ -52,8 +53,8 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_cap(lobe_vec3 v, lobe_real height, lobe_real 
 
 /* t: lobe_ggx_t(v); u in [0,1)^2. v.z > 0.
  *
- * Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps": a point c uniform on the cap c.z >= -v.z/t
- * of the unit sphere gives the normal c + v/t. Here all is t times as large, which saves the division. */
+ * Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps": a point c uniform on the cap c.z >=
+ * -v.z/t of the unit sphere gives the normal c + v/t. Here all is t times as large, which saves the division. */
 LOBE_FN lobe_vec3 lobe_ggx_visible_above(lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
 	return lobe_ggx_visible_cap(v, v.z + t, lobe_ggx_r2(v), u);

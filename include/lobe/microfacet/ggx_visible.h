@@ -36,8 +36,8 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_cut(lobe_vec3 v, lobe_real u, lobe_real p, lo
 	return lobe_vec3_make(lobe_fma(qx, ex, -p * ey), lobe_fma(qx, ey, p * ex), q * z);
 }
 
-/* Heitz 2018, "Sampling the GGX distribution of visible normals": the hemisphere's projection along v is a half disk and
- * a half ellipse, of which a disk's points are moved to. */
+/* Heitz 2018, "Sampling the GGX distribution of visible normals": the hemisphere's projection along v is a half disk
+ * and a half ellipse, of which a disk's points are moved to. */
 LOBE_FN lobe_vec3 lobe_ggx_visible_ellipsoid(lobe_vec3 v, lobe_vec2 u)
 {
 	const lobe_real one = LOBE_R(1.0);
@@ -70,11 +70,11 @@ LOBE_FN lobe_real lobe_ggx_kepler(lobe_real u)
 	return s * lobe_fma(p, t, LOBE_R(1.0));
 }
 
-/* Heitz and d'Eon 2014, "Importance sampling microfacet-based BSDFs using the distribution of visible normals": the slope
- * along v, then the slope across given that one. Both distributions are inverted as they are. The first, with psi the
- * slope's angle and theta that of v, is (cos theta + sin(psi + theta))/2, the line y above. The second is 1/(1 + k^2)^2
- * in k = slope/sqrt(1 + (first)^2) = cot(w/2), whose integral is Kepler's equation at eccentricity 1; the paper's
- * supplement has a rational fit of it, which samples a density slightly other than the one it divides by. */
+/* Heitz and d'Eon 2014, "Importance sampling microfacet-based BSDFs using the distribution of visible normals": the
+ * slope along v, then the slope across given that one. Both distributions are inverted as they are. The first, with psi
+ * the slope's angle and theta that of v, is (cos theta + sin(psi + theta))/2, the line y above. The second is 1/(1 +
+ * k^2)^2 in k = slope/sqrt(1 + (first)^2) = cot(w/2), whose integral is Kepler's equation at eccentricity 1; the
+ * paper's supplement has a rational fit of it, which samples a density slightly other than the one it divides by. */
 LOBE_FN lobe_vec3 lobe_ggx_visible_slopes(lobe_vec3 v, lobe_vec2 u)
 {
 	const lobe_real one = LOBE_R(1.0);
@@ -86,9 +86,9 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_slopes(lobe_vec3 v, lobe_vec2 u)
 	return lobe_ggx_visible_cut(v, along, left ? -sc.c : sc.c, sc.s);
 }
 
-/* Eto and Tokuyoshi 2023, "Bounded VNDF sampling for Smith-GGX reflections": facets that reflect wo below the horizon lie
- * in the lower part of the cap, which can be left out as far as all is so: k of the height below the horizon remains.
- * narrow: the lesser width, at most 1. wo: not stretched. k = 1, the whole cap, from below. */
+/* Eto and Tokuyoshi 2023, "Bounded VNDF sampling for Smith-GGX reflections": facets that reflect wo below the horizon
+ * lie in the lower part of the cap, which can be left out as far as all is so: k of the height below the horizon
+ * remains. narrow: the lesser width, at most 1. wo: not stretched. k = 1, the whole cap, from below. */
 LOBE_FN lobe_real lobe_ggx_bounded_k(lobe_real narrow, lobe_vec3 wo)
 {
 	const lobe_real one = LOBE_R(1.0);

@@ -1,21 +1,21 @@
 /* gtr.h - generalised Trowbridge-Reitz: D = c/(alpha^2 cos^2 + sin^2)^gamma. gamma = 2 is GGX, 1 is Berry's (Disney's
  * clearcoat).
  *
- * Burley 2012, "Physically based shading at Disney", appendix B; Berry 1923; masking for whole gamma: Dimov 2015, "Deriving
- * the Smith shadowing function G1 for gamma in (0, 4]". The functions are those that facet.h explains. alpha is part of
- * the shape: unless gamma = 2, surfaces of two widths are not stretches of one another.
+ * Burley 2012, "Physically based shading at Disney", appendix B; Berry 1923; masking for whole gamma: Dimov 2015,
+ * "Deriving the Smith shadowing function G1 for gamma in (0, 4]". The functions are those that facet.h explains. alpha
+ * is part of the shape: unless gamma = 2, surfaces of two widths are not stretches of one another.
  *
- * With A = alpha^2, w = (A + t)/(1 + t) (t = tan^2) falls from 1 at t = infinity to A at t = 0, and everything is a power
- * of it. In l = -log w, a = -log A and b = gamma - 1:
+ * With A = alpha^2, w = (A + t)/(1 + t) (t = tan^2) falls from 1 at t = infinity to A at t = 0, and everything is a
+ * power of it. In l = -log w, a = -log A and b = gamma - 1:
  *	pi D = pi D(0) (A/w)^gamma,   pi D(0) = ((1 - A)/A) b/(1 - exp(-b a)),   tail = (exp(b l) - 1)/(exp(b a) - 1),
  * of which the limits b -> 0 and a -> 0, where the textbook form is 0/0, come out of (exp(x) - 1)/x and log(1 + x)/x.
  *
- * hidden is closed for gamma = 1, 2, 3, 4 and needs no table; any other gamma (3/2 leads to elliptic integrals) has it from
- * the table. Visible normals always come from the table.
+ * hidden is closed for gamma = 1, 2, 3, 4 and needs no table; any other gamma (3/2 leads to elliptic integrals) has it
+ * from the table. Visible normals always come from the table.
  *
  * Largest relative error, single precision against quadrature, gamma = .5 to 10, alpha = 1e-4 to 1
- * (tests/test_distributions.c): density 2e-6, hidden 1e-6 (closed) or 3e-6, tail 2e-6 where the value is above 1e-4 of its
- * largest; 2e-5 each down to 1e-33 of it. */
+ * (tests/test_distributions.c): density 2e-6, hidden 1e-6 (closed) or 3e-6, tail 2e-6 where the value is above 1e-4 of
+ * its largest; 2e-5 each down to 1e-33 of it. */
 #ifndef LOBE_MICROFACET_GTR_H
 #define LOBE_MICROFACET_GTR_H
 
@@ -81,8 +81,8 @@ LOBE_FN lobe_real lobe_gtr_tail_inverse(lobe_distribution d, lobe_real q)
 	return a == LOBE_R(0.0) ? p / q : d.width * d.width * up / down;
 }
 
-/* hidden for gamma = 1, 2, 3, 4. With s^2 = v.x^2 + v.y^2, z = |v.z|, P = sqrt(z^2 + A s^2), w = A s^2/(z + P)^2 all are
- * sums of positive terms, but for the first, where half the leading term remains:
+/* hidden for gamma = 1, 2, 3, 4. With s^2 = v.x^2 + v.y^2, z = |v.z|, P = sqrt(z^2 + A s^2), w = A s^2/(z + P)^2 all
+ * are sums of positive terms, but for the first, where half the leading term remains:
  *	1: N s^2/(P + Q) (1 - z/(z + P) log(1 + x)/x),   N = (1 - A)/a, Q = sqrt(z^2 + s^2), x = (Q - P)/(z + P)
  *	2: A s^2/(2 (z + P))
  *	3: A^2 s^2 (2 + (1 + A) s^2/(z + P)^2)/(4 (1 + A) P)

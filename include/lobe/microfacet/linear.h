@@ -2,23 +2,24 @@
  * plane, and a shear that tilts the mean plane. Slopes s of the surface of width 1 become A s + mean, where a facet of
  * slopes (x, y) has the normal (-x, -y, 1)/length.
  *
- * The Jacobian is all one needs (Atanasov et al. 2022, "Efficient microfacet transformations"; Heitz 2014, section 5.3 and
- * appendix; Dupuy et al. 2013, "Linear efficient antialiased displacement and reflectance mapping", for the shear). The
- * functions are those of stretch.h: directions and normals of the mapped surface turn into those of the surface of width 1,
- * nothing is normalised, and projected areas come out as they are: sigma(w) = sigma_1(lobe_linear_direction(w)), of which
- * the mean plane's share is v.z = w.z - mean.w. That share is what can be seen of the surface from w: where it is not
- * above 0 the mean plane faces away, and yet sigma(w) > 0: some facets face w. smith.h puts it all together.
+ * The Jacobian is all one needs (Atanasov et al. 2022, "Efficient microfacet transformations"; Heitz 2014, section 5.3
+ * and appendix; Dupuy et al. 2013, "Linear efficient antialiased displacement and reflectance mapping", for the shear).
+ * The functions are those of stretch.h: directions and normals of the mapped surface turn into those of the surface of
+ * width 1, nothing is normalised, and projected areas come out as they are: sigma(w) =
+ * sigma_1(lobe_linear_direction(w)), of which the mean plane's share is v.z = w.z - mean.w. That share is what can be
+ * seen of the surface from w: where it is not above 0 the mean plane faces away, and yet sigma(w) > 0: some facets face
+ * w. smith.h puts it all together.
  *
  * All is per unit of area of the horizontal plane, which no shear changes: the integral of D(m) m.z is 1, and that of
  * D(m) m is the vector (-mean_x, -mean_y, 1), the mean plane's normal times its area.
  *
- * stretch.h is the special case A = diag(alpha_x, alpha_y), mean = 0 that production lobes are built from, with a third of
- * the arithmetic; lobe_linear_stretch gives the same bits (tests/test_linear.c).
+ * stretch.h is the special case A = diag(alpha_x, alpha_y), mean = 0 that production lobes are built from, with a third
+ * of the arithmetic; lobe_linear_stretch gives the same bits (tests/test_linear.c).
  *
  * Domain: widths 1e-4 to 100, mean slopes to 100, correlations to +-0.9999. What single precision costs there is one
- * rounding of each coordinate, magnified by how oblong the map is: D is off by at most 5e-7 times the condition of A, and
- * for Beckmann times 1 + r^2 too, r in widths (tests/test_linear.c, which looks at r < 8). No form does better, since the
- * rounding of the normal itself does as much. */
+ * rounding of each coordinate, magnified by how oblong the map is: D is off by at most 5e-7 times the condition of A,
+ * and for Beckmann times 1 + r^2 too, r in widths (tests/test_linear.c, which looks at r < 8). No form does better,
+ * since the rounding of the normal itself does as much. */
 #ifndef LOBE_MICROFACET_LINEAR_H
 #define LOBE_MICROFACET_LINEAR_H
 
@@ -56,11 +57,12 @@ LOBE_FN lobe_linear lobe_linear_make(lobe_real xx, lobe_real xy, lobe_real yx, l
 	return m;
 }
 
-/* A width from below: no upper limit, for the facets of a height field may be as steep as they like. A NaN stays one. */
+/* A width from below: no upper limit, for the facets of a height field may be as steep as they like. A NaN stays
+ * one. */
 LOBE_FN lobe_real lobe_linear_width(lobe_real alpha) { return alpha < LOBE_ALPHA_MIN ? LOBE_ALPHA_MIN : alpha; }
 
-/* A = R diag(alpha_1, alpha_2), where R turns the x axis into the unit vector (c, s). With the inverse written down, not
- * computed, its small entries keep all their digits. */
+/* A = R diag(alpha_1, alpha_2), where R turns the x axis into the unit vector (c, s). With the inverse written down,
+ * not computed, its small entries keep all their digits. */
 LOBE_FN lobe_linear lobe_linear_principal(lobe_real c, lobe_real s, lobe_real alpha_1, lobe_real alpha_2)
 {
 	const lobe_real i1 = LOBE_R(1.0) / alpha_1;
@@ -80,7 +82,8 @@ LOBE_FN lobe_linear lobe_linear_principal(lobe_real c, lobe_real s, lobe_real al
 	return m;
 }
 
-/* The surface of stretch.h. Widths below LOBE_ALPHA_MIN are raised to it; those above 1, which stretch.h clamps, stay. */
+/* The surface of stretch.h. Widths below LOBE_ALPHA_MIN are raised to it; those above 1, which stretch.h clamps,
+ * stay. */
 LOBE_FN lobe_linear lobe_linear_stretch(lobe_real alpha_x, lobe_real alpha_y)
 {
 	return lobe_linear_principal(LOBE_R(1.0), LOBE_R(0.0), lobe_linear_width(alpha_x), lobe_linear_width(alpha_y));
@@ -125,9 +128,9 @@ LOBE_FN lobe_linear lobe_linear_tilted(lobe_linear m, lobe_real mean_x, lobe_rea
 	return m;
 }
 
-/* From the mean and the covariance of slopes: A A^T = 2 (var_x cov; cov var_y), so that a Beckmann surface has these very
- * moments (alpha^2 = 2 Var). A GGX surface has no variance - it grows with the logarithm of the steepest slope - and is
- * given the same A by convention: that suits measured moments only as far as their tails have been cut.
+/* From the mean and the covariance of slopes: A A^T = 2 (var_x cov; cov var_y), so that a Beckmann surface has these
+ * very moments (alpha^2 = 2 Var). A GGX surface has no variance - it grows with the logarithm of the steepest slope -
+ * and is given the same A by convention: that suits measured moments only as far as their tails have been cut.
  *
  * By principal axes, the small one from the determinant, so that nothing cancels at a correlation of 0.9999. Along an
  * axis of less variance than LOBE_ALPHA_MIN^2/2, or of a negative one (|cov| too large by rounding), the width is
@@ -154,9 +157,9 @@ LOBE_FN lobe_linear lobe_linear_from_moments(lobe_real mean_x, lobe_real mean_y,
 	return lobe_linear_tilted(m, mean_x, mean_y);
 }
 
-/* From the map of the surface's points, p -> M p with M = (xx xy 0; yx yy 0; zx zy zz): the M of Atanasov et al. 2022 and
- * a shear. D_M(h) = |det M| zz D(M^T h/|M^T h|)/|M^T h|^4 and w turns into M^-1 w (their eqs. have zz = 1). The other two
- * entries are 0, or the image of a height field would not be one. zz > 0. */
+/* From the map of the surface's points, p -> M p with M = (xx xy 0; yx yy 0; zx zy zz): the M of Atanasov et al. 2022
+ * and a shear. D_M(h) = |det M| zz D(M^T h/|M^T h|)/|M^T h|^4 and w turns into M^-1 w (their eqs. have zz = 1). The
+ * other two entries are 0, or the image of a height field would not be one. zz > 0. */
 LOBE_FN lobe_linear lobe_linear_from_points(lobe_real xx, lobe_real xy, lobe_real yx, lobe_real yy, lobe_real zx,
 					    lobe_real zy, lobe_real zz)
 {

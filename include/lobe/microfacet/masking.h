@@ -18,9 +18,10 @@
  * VCAVITY			vcavity.h: min(1, G1(o, m), G1(i, m)); across, where the view sees the upper part of a side
  *				and the light its lower part, what is common to both: max(0, G1(o, m) + G1(i, m) - 1)
  *
- * Of these the weak furnace is 1: all that is seen of the facets is as large as the mean plane. Those that follow are no
- * microsurface's. They are here to be compared, as functions of the cosine c to the mean plane (with its shear undone),
- * the same across the surface as on one side, and, where they have a width, of the geometric mean of the map's two.
+ * Of these the weak furnace is 1: all that is seen of the facets is as large as the mean plane. Those that follow are
+ * no microsurface's. They are here to be compared, as functions of the cosine c to the mean plane (with its shear
+ * undone), the same across the surface as on one side, and, where they have a width, of the geometric mean of the map's
+ * two.
  *
  * NONE				1. Too bright: at grazing angles without bound
  * IMPLICIT			c_o c_i, which cancels the cosines of the denominator. Too dark
@@ -45,7 +46,8 @@
 #include "microsurface.h"
 #include "vcavity.h"
 
-/* van Ginneken's factor l of the azimuth between o and i, apart: 0 where they are one, .93 where opposite; and 1 - l. */
+/* van Ginneken's factor l of the azimuth between o and i, apart: 0 where they are one, .93 where opposite; and 1 -
+ * l. */
 typedef struct {
 	lobe_real apart, together;
 } lobe_masking_azimuth;
@@ -93,8 +95,8 @@ LOBE_FN lobe_real lobe_masking_one_plus_lambda(lobe_seen d)
 	return lobe_clamp((d.z + d.hides) / d.z, LOBE_R(1.0), LOBE_R(0x1p60));
 }
 
-/* i on the other side. G2/z_o with z_o as the visible area over 1 + Lambda_o. From the back of the mean plane, whose limit
- * BETA's 0 is, the tops of the facets are seen, and nothing comes through there. */
+/* i on the other side. G2/z_o with z_o as the visible area over 1 + Lambda_o. From the back of the mean plane, whose
+ * limit BETA's 0 is, the tops of the facets are seen, and nothing comes through there. */
 LOBE_FN lobe_real lobe_masking_smith_across(lobe_uint across, lobe_seen o, lobe_seen i)
 {
 	const lobe_real sum_o = o.z + o.hides;

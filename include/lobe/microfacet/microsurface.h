@@ -37,8 +37,8 @@ enum {
 
 enum { LOBE_ACROSS_SEPARABLE = 0, LOBE_ACROSS_BETA = 1 };
 
-/* masking, joint, across: LOBE_MASKING_*, LOBE_JOINT_*, LOBE_ACROSS_*. Prepared: like, the width of the GGX surface that
- * the distribution is most like before the map; alpha, the one width that masking without directions takes for the
+/* masking, joint, across: LOBE_MASKING_*, LOBE_JOINT_*, LOBE_ACROSS_*. Prepared: like, the width of the GGX surface
+ * that the distribution is most like before the map; alpha, the one width that masking without directions takes for the
  * surface's: like times the geometric mean of the map's two widths; narrow: like times the lesser of the two. */
 typedef struct {
 	lobe_distribution distribution;
@@ -113,7 +113,8 @@ LOBE_FN lobe_real lobe_microsurface_hides(lobe_microsurface s, lobe_vec3 v, lobe
 
 /* What masking and sampling ask of a direction. v: as it sees the surface of width 1. z: the mean plane's area as seen
  * from it, 0 where that shows its back. sigma: that of all facets which face it. hides: by Smith, of those that face
- * away. cosine: of the angle to the mean plane once the shear is undone (w.z where there is none), inv_length times z. */
+ * away. cosine: of the angle to the mean plane once the shear is undone (w.z where there is none), inv_length times
+ * z. */
 typedef struct {
 	lobe_vec3 v;
 	lobe_real z, sigma, hides, cosine, inv_length;
@@ -135,8 +136,8 @@ LOBE_FN_APART lobe_seen lobe_see(lobe_microsurface s, lobe_vec3 w_in, lobe_real 
 	return d;
 }
 
-/* What they ask of a facet h of any length: |o.h| and |i.h|, which are products with v and with h on the surface of width
- * 1 as well; h.z > 0, the same there; |h|^2. */
+/* What they ask of a facet h of any length: |o.h| and |i.h|, which are products with v and with h on the surface of
+ * width 1 as well; h.z > 0, the same there; |h|^2. */
 typedef struct {
 	lobe_real o, i, z, length2;
 } lobe_seen_facet;

@@ -1,8 +1,8 @@
-/* phong.h - Phong: normals about the mean normal with density D = (n + 2)/(2 pi) cos^n. The normals of Blinn-Phong are the
- * same, as half vectors are normals: an exponent of Blinn 1977 is this n.
+/* phong.h - Phong: normals about the mean normal with density D = (n + 2)/(2 pi) cos^n. The normals of Blinn-Phong are
+ * the same, as half vectors are normals: an exponent of Blinn 1977 is this n.
  *
- * Phong 1975; Blinn 1977; Walter et al. 2007, section 5.2. The functions are those that facet.h explains.
- * As slopes it is (n + 2)/(2 pi) (1 + r^2)^(-(n + 4)/2): exactly Student-T (student_t.h) with gamma = (n + 4)/2 and width
+ * Phong 1975; Blinn 1977; Walter et al. 2007, section 5.2. The functions are those that facet.h explains. As slopes it
+ * is (n + 2)/(2 pi) (1 + r^2)^(-(n + 4)/2): exactly Student-T (student_t.h) with gamma = (n + 4)/2 and width
  * lobe_phong_alpha(n), so its masking is Student-T's, and at n = 0 it is GGX of width 1. n is a shape, not a width: no
  * stretch turns one exponent into another.
  *
@@ -49,8 +49,8 @@ LOBE_FN lobe_vec3 lobe_phong_visible(lobe_distribution d, lobe_vec3 v, lobe_vec2
 	return lobe_profile_visible(d.table, v, u);
 }
 
-/* For comparison, hidden(v) by the approximation of Walter et al. 2007: their rational fit to Beckmann's masking, at
- * a = sqrt(n/2 + 1)/tan theta, cut off at a = 1.6. Error of G1 against the exact masking: .047 at n = 5, .015 at 20, .004
+/* For comparison, hidden(v) by the approximation of Walter et al. 2007: their rational fit to Beckmann's masking, at a
+ * = sqrt(n/2 + 1)/tan theta, cut off at a = 1.6. Error of G1 against the exact masking: .047 at n = 5, .015 at 20, .004
  * at 100, and the fit's own .0032 beyond. */
 LOBE_FN lobe_real lobe_phong_hidden_walter(lobe_distribution d, lobe_vec3 v)
 {

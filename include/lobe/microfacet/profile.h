@@ -6,11 +6,11 @@
  * so that hidden(v) = s h(|v.z|/s) with h(z) = int_z^inf r k(z/r) dF(r), of one variable: all that the masking of any
  * distribution of slopes is.
  *
- * The table holds Q as a function of X = 1 + r^2/t0 and h as one of X = 1 + z/r0, where r0 is the median of r, and t0 is
- * r^2 of tail 15/16, so that a narrow peak on a broad base is resolved. Both fall from their largest value, often over tens
- * of decades: what is interpolated, by cubic polynomials with exact slopes at 257 knots that the host places, is the
- * logarithm of either in the logarithm of X. There powers and exponentials are (nearly) straight, and relative accuracy
- * holds however small a value is. Beyond the last knot both go on as powers.
+ * The table holds Q as a function of X = 1 + r^2/t0 and h as one of X = 1 + z/r0, where r0 is the median of r, and t0
+ * is r^2 of tail 15/16, so that a narrow peak on a broad base is resolved. Both fall from their largest value, often
+ * over tens of decades: what is interpolated, by cubic polynomials with exact slopes at 257 knots that the host places,
+ * is the logarithm of either in the logarithm of X. There powers and exponentials are (nearly) straight, and relative
+ * accuracy holds however small a value is. Beyond the last knot both go on as powers.
  *
  * Errors: phong.h, gtr.h, student_t.h, tabulated.h; all measured by tests/test_distributions.c. */
 #ifndef LOBE_MICROFACET_PROFILE_H
@@ -33,8 +33,8 @@ enum {
 	LOBE_PROFILE_INV_R0 = 3, /* 1/r0 */
 	LOBE_PROFILE_TAIL = 4,
 
-	/* One knot and the piece from it to the next: place X and value V there; the piece's rise of log X; the falls of
-	 * log V over it and, per piece, at its two ends. The last knot has the first two only. */
+	/* One knot and the piece from it to the next: place X and value V there; the piece's rise of log X; the falls
+	 * of log V over it and, per piece, at its two ends. The last knot has the first two only. */
 	LOBE_KNOT_X = 0,
 	LOBE_KNOT_VALUE = 1,
 	LOBE_KNOT_WIDTH = 2,
@@ -163,8 +163,8 @@ LOBE_FN lobe_real lobe_profile_hidden(lobe_table t, lobe_vec3 v)
 	return s > LOBE_R(0.0) ? s * curve : LOBE_R(0.0);
 }
 
-/* density(h) of facet.h, as the exact derivative of the interpolated tail: -dQ/d tan^2 = pi P22. So the density, the tail
- * and all samples belong to one and the same surface. */
+/* density(h) of facet.h, as the exact derivative of the interpolated tail: -dQ/d tan^2 = pi P22. So the density, the
+ * tail and all samples belong to one and the same surface. */
 LOBE_FN lobe_facet_density lobe_profile_density(lobe_table t, lobe_vec3 h)
 {
 	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y);

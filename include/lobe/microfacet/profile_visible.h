@@ -3,13 +3,13 @@
  * The steepness r first, then the azimuth on its ring: one random number each, every step monotone in its own.
  *
  * Ring. What v sees of the ring r is max(v.z, 0) + s r k(|v.z|/(s r)) (profile.h). For r < v.z/s that is v.z, and the
- * tail alone is inverted. The steeper rings are searched from the steepest down: a binary tree over the pieces of the tail
- * curve, and at each node the area that is seen of the pieces in its steeper half. For that half the host has an 8-point
- * Gauss rule for the measure r dF in the variable 1/r, for which k is a smooth function however the rings are distributed;
- * only halves that are steeper than |v.z|/s as a whole are ever evaluated, so that k's singular point, (1 - x)^(3/2), is an
- * end point at worst (Gauss: 1e-6 of that half's area). What remains for the last piece is the difference from sigma(v),
- * and inside it the area is a 4-point Gauss-Legendre sum, solved by Newton's method. Nothing cancels below the horizon,
- * where max(v.z, 0) is 0 and all terms are positive.
+ * tail alone is inverted. The steeper rings are searched from the steepest down: a binary tree over the pieces of the
+ * tail curve, and at each node the area that is seen of the pieces in its steeper half. For that half the host has an
+ * 8-point Gauss rule for the measure r dF in the variable 1/r, for which k is a smooth function however the rings are
+ * distributed; only halves that are steeper than |v.z|/s as a whole are ever evaluated, so that k's singular point, (1
+ * - x)^(3/2), is an end point at worst (Gauss: 1e-6 of that half's area). What remains for the last piece is the
+ * difference from sigma(v), and inside it the area is a 4-point Gauss-Legendre sum, solved by Newton's method. Nothing
+ * cancels below the horizon, where max(v.z, 0) is 0 and all terms are positive.
  *
  * Largest distance of u.x from the true cumulative distribution of the ring 3e-6, of u.y from that of the azimuth 1e-6
  * (tests/test_distributions_visible.c; a ring whose width is a hundredth of its steepness: 4e-5).
@@ -140,8 +140,9 @@ LOBE_FN lobe_real lobe_kepler(lobe_real sum, lobe_real reach, lobe_real psi)
 /* Sine and cosine of psi with density proportional to max(0, z + reach cos psi), reach >= 0, z + reach > 0; u in [0,1).
  *
  * The cumulative z psi + reach sin psi is written with z + reach, which may be small, and psi - sin psi. It is odd and,
- * on the half that is solved, concave; the start solves the cubic that it becomes where z + reach is small, which has the
- * square root of the end that Newton's method alone would creep along, and 5 steps of Halley's method leave 3e-7. */
+ * on the half that is solved, concave; the start solves the cubic that it becomes where z + reach is small, which has
+ * the square root of the end that Newton's method alone would creep along, and 5 steps of Halley's method leave
+ * 3e-7. */
 LOBE_FN lobe_sincos lobe_visible_azimuth(lobe_real z, lobe_real reach, lobe_real u)
 {
 	const lobe_real one = LOBE_R(1.0);

@@ -1,7 +1,7 @@
 /* scatter.h - two directions and the facet that takes one to the other, on a microsurface chosen at run time.
  *
- * What eval, pdf and the weight of a sample share, so that they agree to the last few roundings. In the unnormalised half
- * vector H = o + e_r i, e_r = 1 for a reflection, the facet's density is (Walter et al. 2007)
+ * What eval, pdf and the weight of a sample share, so that they agree to the last few roundings. In the unnormalised
+ * half vector H = o + e_r i, e_r = 1 for a reflection, the facet's density is (Walter et al. 2007)
  *	D(m) |o.m| |dm/di| = norm e_r^2 |o.H| |i.H| D1(H)
  * without any power of |H|, D1 being the density on the surface of width 1. With it
  *	f |cos theta_i| = F density G2/z_o,   pdf = P density_s rate,   weight = F/P (density/density_s) (G2/z_o)/rate

@@ -14,8 +14,8 @@ enum {
 	LOBE_NDF_LIMIT = 256
 };
 
-/* ndf: LOBE_NDF_*. exponent: gamma of GTR and Student-T, n of Phong. width: GTR's alpha, which no stretch can stand for.
- * norm: prepared from them. table: profile.h, for distributions that need one. */
+/* ndf: LOBE_NDF_*. exponent: gamma of GTR and Student-T, n of Phong. width: GTR's alpha, which no stretch can stand
+ * for. norm: prepared from them. table: profile.h, for distributions that need one. */
 typedef struct {
 	lobe_uint ndf;
 	lobe_real exponent, width, norm;

@@ -1,5 +1,5 @@
-/* smith.h - Smith's microsurface: a distribution of normals (distribution.h) under a linear map (linear.h), with D, projected
- * area, masking and visible normals of a stretched, skewed and tilted surface.
+/* smith.h - Smith's microsurface: a distribution of normals (distribution.h) under a linear map (linear.h), with D,
+ * projected area, masking and visible normals of a stretched, skewed and tilted surface.
  *
  * For shading normals that face away. The mean plane of a tilted surface may face away from a w above the horizon:
  * v.z <= 0 with w.z > 0. Some facets still face w, and visible normals with the density D(m) max(0, w.m)/sigma(w) are

@@ -1,9 +1,10 @@
 /* stretch.h - a microsurface stretched by alpha_x along the tangent and alpha_y along the bitangent.
  *
- * The Jacobian is all one needs (Heitz 2014, section 5.3; Atanasov et al. 2022, "Efficient microfacet transformations"):
- * slopes scale by alpha, directions and normals of the stretched surface turn into those of the isotropic surface of
- * width 1 by the maps below, and everything else - D, masking, projected area, sampling - is that surface's (ggx.h,
- * beckmann.h). Maps are linear and nothing is normalised: what the length does is undone by whoever uses it.
+ * The Jacobian is all one needs (Heitz 2014, section 5.3; Atanasov et al. 2022, "Efficient microfacet
+ * transformations"): slopes scale by alpha, directions and normals of the stretched surface turn into those of the
+ * isotropic surface of width 1 by the maps below, and everything else - D, masking, projected area, sampling - is that
+ * surface's (ggx.h, beckmann.h). Maps are linear and nothing is normalised: what the length does is undone by whoever
+ * uses it.
  *
  * Production lobes use this. Rotation, correlated slopes and a tilted mean plane are linear.h, of which this is the
  * special case with a third of the arithmetic. */

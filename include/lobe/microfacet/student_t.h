@@ -1,16 +1,16 @@
-/* student_t.h - slopes of Student's t-distribution: from GGX (gamma = 2) to Beckmann (gamma -> infinity), and with heavier
- * tails than GGX below 2.
+/* student_t.h - slopes of Student's t-distribution: from GGX (gamma = 2) to Beckmann (gamma -> infinity), and with
+ * heavier tails than GGX below 2.
  *
  * Ribardiere et al. 2017, "STD: Student's t-Distribution of Slopes for Microfacet Based BSDFs". The functions are those
  * that facet.h explains; width 1 is theirs, D = cos^-4 (1 + tan^2/(gamma - 1))^-gamma/pi.
  *
- * Masking is exact (by table): with z = cot theta, s^2 = gamma - 1 and T the upper tail of Student's distribution of
- * 2 gamma - 2 degrees of freedom, Lambda = C s^2 (1 + z^2/s^2)^(3/2 - gamma)/((2 gamma - 3) z) - T,
- * C = Gamma(gamma - 1/2) (gamma - 1)/(sqrt(pi) Gamma(gamma) s). The two terms cancel where Lambda is small; h of profile.h
- * does not. Below gamma = 3/2 the mean slope, and with it the area seen at grazing, is infinite.
+ * Masking is exact (by table): with z = cot theta, s^2 = gamma - 1 and T the upper tail of Student's distribution of 2
+ * gamma - 2 degrees of freedom, Lambda = C s^2 (1 + z^2/s^2)^(3/2 - gamma)/((2 gamma - 3) z) - T, C = Gamma(gamma -
+ * 1/2) (gamma - 1)/(sqrt(pi) Gamma(gamma) s). The two terms cancel where Lambda is small; h of profile.h does not.
+ * Below gamma = 3/2 the mean slope, and with it the area seen at grazing, is infinite.
  *
- * Largest relative error, single precision against quadrature, gamma = 1.6 to 1000 (tests/test_distributions.c): density
- * 2e-6, hidden 3e-6, tail 2e-6 where the value is above 1e-4 of its largest; 2e-5 each down to 1e-33 of it.
+ * Largest relative error, single precision against quadrature, gamma = 1.6 to 1000 (tests/test_distributions.c):
+ * density 2e-6, hidden 3e-6, tail 2e-6 where the value is above 1e-4 of its largest; 2e-5 each down to 1e-33 of it.
  * Lambda against the closed form above, gamma = 1.501 to 1000: 2e-6 (tests/test_distributions_forms.c). */
 #ifndef LOBE_MICROFACET_STUDENT_T_H
 #define LOBE_MICROFACET_STUDENT_T_H
@@ -64,9 +64,9 @@ LOBE_FN lobe_real lobe_gamma_ratio(lobe_real x)
 	return product / (lobe_sqrt(x) * lobe_fma(p, y, LOBE_R(1.0)));
 }
 
-/* For comparison, hidden(v) by the rational fit that the paper gives for the second term of Lambda. Some programs carry a
- * wrong sign in front of 14.402, which makes Lambda negative. The fit is absolute: measured
- * .0071 of Lambda for gamma = 1.6 to 10 and cot theta .05 to 5, and below 0 where Lambda is small. */
+/* For comparison, hidden(v) by the rational fit that the paper gives for the second term of Lambda. Some programs carry
+ * a wrong sign in front of 14.402, which makes Lambda negative. The fit is absolute: measured .0071 of Lambda for gamma
+ * = 1.6 to 10 and cot theta .05 to 5, and below 0 where Lambda is small. */
 LOBE_FN lobe_real lobe_student_t_hidden_fit(lobe_distribution d, lobe_vec3 v)
 {
 	const lobe_real g = d.exponent;
@@ -93,7 +93,8 @@ LOBE_FN lobe_real lobe_student_t_hidden_fit(lobe_distribution d, lobe_vec3 v)
 		lobe_fma(lobe_fma(lobe_fma(LOBE_R(6.347), z, LOBE_R(-3.218)), z, LOBE_R(6.103)), z, LOBE_R(6.538));
 	const lobe_real second = n21 / d21 * lobe_fma(n23 / d23, n24 / d24, n22 / d22);
 
-	/* The first term times z, so that it holds at the horizon: (gamma - 1)^(3/2) (1 + z^2/(gamma - 1))^(3/2 - gamma). */
+	/* The first term times z, so that it holds at the horizon: (gamma - 1)^(3/2) (1 + z^2/(gamma - 1))^(3/2 -
+	 * gamma). */
 	const lobe_real first =
 		(g - one) * root * lobe_decay(z * z * d.norm, g - LOBE_R(1.5)) / (LOBE_R(2.0) * g - LOBE_R(3.0));
 	const lobe_real c = lobe_gamma_ratio(g - LOBE_R(0.5)) * LOBE_R(0.564189583547756287);

@@ -4,10 +4,10 @@
  * cot theta/alpha alone, which a stretch (stretch.h) makes true by construction. The functions are those that facet.h
  * explains, all from one table (profile.h) that lobe_distribution_tabulated() makes of f.
  *
- * Largest relative error against quadrature of f (tests/test_distributions.c), for two Gaussians, an exponential, rings,
- * and steps with gaps: hidden 5e-6 where it is above 1e-4 of its largest and 3e-5 down to 1e-33 of it; tail 4e-6 and 2e-5;
- * density, where it is above 1e-4 of its largest, 3e-5, or 1e-4 where f jumps elsewhere, or 5e-4 at a cusp at the normal.
- * A ring whose width is a hundredth of its steepness is near the resolution of a float: 1e-4. */
+ * Largest relative error against quadrature of f (tests/test_distributions.c), for two Gaussians, an exponential,
+ * rings, and steps with gaps: hidden 5e-6 where it is above 1e-4 of its largest and 3e-5 down to 1e-33 of it; tail 4e-6
+ * and 2e-5; density, where it is above 1e-4 of its largest, 3e-5, or 1e-4 where f jumps elsewhere, or 5e-4 at a cusp at
+ * the normal. A ring whose width is a hundredth of its steepness is near the resolution of a float: 1e-4. */
 #ifndef LOBE_MICROFACET_TABULATED_H
 #define LOBE_MICROFACET_TABULATED_H
 

@@ -1,13 +1,13 @@
 /* vcavity.h - a surface of symmetric V-shaped cavities, each by itself: masking, and sampling of what is visible.
  *
- * Torrance and Sparrow 1967; Cook and Torrance 1982; as a microsurface like Smith's by Heitz 2014, section 6.2 and Heitz
- * and d'Eon 2014, "Importance sampling microfacet-based BSDFs using the distribution of visible normals". On the surface
- * of width 1 the two sides of a cavity have slopes s and -s, that is, normals m and m' mirrored about the vertical. What
- * share of a side is seen is not changed by a linear map that keeps verticals vertical, so all below is in terms of that
- * surface: the mapped cavity's sides have slopes mean +- A s. v and m may have any length, m.z > 0.
+ * Torrance and Sparrow 1967; Cook and Torrance 1982; as a microsurface like Smith's by Heitz 2014, section 6.2 and
+ * Heitz and d'Eon 2014, "Importance sampling microfacet-based BSDFs using the distribution of visible normals". On the
+ * surface of width 1 the two sides of a cavity have slopes s and -s, that is, normals m and m' mirrored about the
+ * vertical. What share of a side is seen is not changed by a linear map that keeps verticals vertical, so all below is
+ * in terms of that surface: the mapped cavity's sides have slopes mean +- A s. v and m may have any length, m.z > 0.
  *
- * z: the mean plane's area as seen from v, max(v.z, 0). Cavities cannot be seen from behind their mean plane: where z is
- * 0 so is everything. */
+ * z: the mean plane's area as seen from v, max(v.z, 0). Cavities cannot be seen from behind their mean plane: where z
+ * is 0 so is everything. */
 #ifndef LOBE_MICROFACET_VCAVITY_H
 #define LOBE_MICROFACET_VCAVITY_H
 
@@ -26,8 +26,8 @@ LOBE_FN lobe_real lobe_vcavity_g1(lobe_real z, lobe_real facing, lobe_real m_z)
 	return lobe_min(z, facing) > LOBE_R(0.0) ? g : LOBE_R(0.0);
 }
 
-/* What is not seen of it, 1 - G1(v, m), which does not cancel: the share of the side that the other one, facing away, covers.
- * Where v sees nothing of the side this means nothing. */
+/* What is not seen of it, 1 - G1(v, m), which does not cancel: the share of the side that the other one, facing away,
+ * covers. Where v sees nothing of the side this means nothing. */
 LOBE_FN lobe_real lobe_vcavity_hidden(lobe_real z, lobe_real facing, lobe_real m_z)
 {
 	return lobe_max(lobe_fma(-(m_z + m_z), z, facing), LOBE_R(0.0)) / facing;
