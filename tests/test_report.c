@@ -87,6 +87,21 @@ static void test_a_table_is_read_by_row_and_column(void)
 	TEST_ASSERT_EQUAL_DOUBLE(6.0, report_number(t, 27, "row"));
 }
 
+/* Of those that are not timed, in the quick form; a row of other columns ends the program. */
+static void test_rows_have_the_columns_of_their_study(void)
+{
+	for (const report_section *const *s = report_sections; *s; s++)
+		for (const report_study *const *study = (*s)->studies; *study; study++) {
+			report_rows rows = {NULL, 0, 0};
+			if ((*study)->timed || (*study)->units(1) == 0)
+				continue;
+			printf("  %s\n", (*study)->name);
+			TEST_ASSERT_EQUAL_INT(0, (*study)->run(1, 0, &rows));
+			report_table_make((*study)->name, (*study)->columns, rows.text);
+			free(rows.text);
+		}
+}
+
 static void test_only_what_is_missing_runs(void)
 {
 	forget();
@@ -149,6 +164,7 @@ int main(void)
 	write_text("bench/report/toy.c", "first\n");
 	RUN_TEST(test_the_rows_are_the_same_on_any_number_of_threads);
 	RUN_TEST(test_a_table_is_read_by_row_and_column);
+	RUN_TEST(test_rows_have_the_columns_of_their_study);
 	RUN_TEST(test_only_what_is_missing_runs);
 	RUN_TEST(test_quick_and_full_are_kept_apart);
 	RUN_TEST(test_a_change_of_the_source_of_the_section_runs_it_again);

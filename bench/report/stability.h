@@ -88,6 +88,21 @@ typedef enum {
 	STABILITY_CLASSES
 } stability_class;
 
+/* Their names, in that order: a list of X(name). */
+#define STABILITY_CLASS_LIST(X)                                                                                        \
+	X("plain")                                                                                                     \
+	X("undetermined")                                                                                              \
+	X("tiny")                                                                                                      \
+	X("bent")                                                                                                      \
+	X("length")                                                                                                    \
+	X("metal")                                                                                                     \
+	X("falling Schlick")                                                                                           \
+	X("interference")                                                                                              \
+	X("interface")                                                                                                 \
+	X("cosine")                                                                                                    \
+	X("rim")                                                                                                       \
+	X("facets")                                                                                                    \
+	X("logarithm")
 extern const char *const stability_class_names[STABILITY_CLASSES];
 
 /* error: |value - exact|. floor, and the part of it that the directions alone make; floor_of_one: the same with a

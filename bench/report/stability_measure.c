@@ -17,9 +17,10 @@ const char *const stability_lobe_names[STABILITY_LOBES] = {
 #include "lobe/lobes/lobes.def"
 #undef LOBE_X
 };
-const char *const stability_class_names[STABILITY_CLASSES] = {
-	"plain",     "undetermined", "tiny", "bent",   "length",   "metal", "falling Schlick", "interference",
-	"interface", "cosine",       "rim",  "facets", "logarithm"};
+#define NAME(name) name,
+const char *const stability_class_names[STABILITY_CLASSES] = {STABILITY_CLASS_LIST(NAME)};
+#define ONE(name) +1
+typedef char every_class_has_a_name[STABILITY_CLASSES == 0 STABILITY_CLASS_LIST(ONE) ? 1 : -1];
 
 static lobe_vec3 vec3(const float w[3]) { return lobe_vec3_make(w[0], w[1], w[2]); }
 

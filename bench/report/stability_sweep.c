@@ -103,14 +103,15 @@ static int sweep_run(int quick, size_t unit, report_rows *rows)
 	return 0;
 }
 
+#define COLUMN(name) name ","
 const report_study stability_sweep = {
 	"stability_sweep",
-	/* One column for each class. */
-	"lobe,verb,reference,cases,compared,non_finite,negative,above,plain,undetermined,tiny,bent,metal,"
-	"falling "
-	"Schlick,interference,interface,cosine,rim,facets,logarithm,worst_ulp,worst,worst_of_one,own_error,bins,bins_"
-	"of_one",
-	0, sweep_units, sweep_run, NULL};
+	"lobe,verb,reference,cases,compared,non_finite,negative,above," STABILITY_CLASS_LIST(
+		COLUMN) "worst_ulp,worst,worst_of_one,own_error,bins,bins_of_one",
+	0,
+	sweep_units,
+	sweep_run,
+	NULL};
 
 /* --- counts --------------------------------------------------------------------------------------------------------- */
 
