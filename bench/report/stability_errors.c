@@ -175,7 +175,7 @@ void stability_write_errors(report_page *page, const report_table *t)
 		"2^-24 that it is.\n\n"
 		"Cases above %d floors are counted as undetermined, tiny, bent or of length (*other*), as *of one*, or as *none* "
 		"of these; the table below this one says which. Undetermined and tiny cases count as 0 in the "
-		"percentiles.\n\n"
+		"percentiles, cases of length in *worst of one*.\n\n"
 		"| lobe | result | reference | compared | median | 99.99 %% | above %d | other | of one | none | 99.99 "
 		"%% of one "
 		"| worst of one | own error |\n|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",

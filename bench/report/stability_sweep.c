@@ -20,6 +20,7 @@ void stability_tally_add(stability_tally *t, const stability_case *c, stability_
 			 uint64_t n)
 {
 	const double ratio = stability_ratio_determined(r), one = stability_ratio_of_one(r);
+	stability_class class = STABILITY_PLAIN;
 	t->cases++;
 	t->non_finite += !(r->value - r->value == 0.0);
 	t->negative += verb != STABILITY_DIRECTION && r->value < 0.0;
@@ -28,14 +29,17 @@ void stability_tally_add(stability_tally *t, const stability_case *c, stability_
 	t->compared++;
 	if (!(r->error <= STABILITY_LIMIT * r->floor)) {
 		t->above++;
-		t->classes[stability_explain(c, verb, r)]++;
+		class = stability_explain(c, verb, r);
+		t->classes[class]++;
 	}
 	t->bins[stability_bin(ratio)]++;
 	t->bins_of_one[stability_bin(one)]++;
 	if (ratio > 0.0)
 		t->worst_ulp = fmax(t->worst_ulp, r->error / r->ulp);
 	t->worst = fmax(t->worst, ratio);
-	t->worst_of_one = fmax(t->worst_of_one, one);
+	/* What is of the directions' length has a reason that is not counted in roundings. */
+	if (class != STABILITY_LENGTH)
+		t->worst_of_one = fmax(t->worst_of_one, one);
 	/* How good the answer itself is: some cases, and all that would be blamed on the library. */
 	if (n % 64 == 0 || ratio > 8.0)
 		t->own_error = fmax(t->own_error, stability_own_error(c, verb, r));
