@@ -1,6 +1,7 @@
-/* test_mixed.c - batches of several lobes on the native device: every form of sorting and moving elements
- * (native_split.h) against the plain one, and batches of every awkward size against their elements shaded alone. */
+/* test_mixed.c - batches of several lobes: every form of sorting and moving elements (native_split.h) against the plain
+ * one, batches of every awkward size against their elements shaded alone, and a large one on OpenCL too. */
 #define _POSIX_C_SOURCE 200809L
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -352,6 +353,15 @@ static void test_every_size(void)
 	}
 }
 
+/* Of test_large: seven arrays of results and the events are those that were put aside. */
+static void expect_saved(const float *aligned, size_t step, size_t n)
+{
+	for (size_t k = 0; k < 7; k++)
+		TEST_ASSERT_EQUAL(
+			0, memcmp(aligned + (6 + k) * step + (k == 4), aligned + (15 + k) * step + (k == 4), n * 4));
+	TEST_ASSERT_EQUAL(0, memcmp(aligned + 14 * step, aligned + 22 * step, n * 4));
+}
+
 /* A batch whose results go past the caches, on two threads, against itself in parts that do not; arrays that are
  * aligned to cache lines and arrays that are not. */
 static void test_large(void)
@@ -407,12 +417,19 @@ static void test_large(void)
 		}
 		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(scene, &part));
 	}
-	for (size_t k = 0; k < 7; k++)
-		TEST_ASSERT_EQUAL(
-			0, memcmp(aligned + (6 + k) * step + (k == 4), aligned + (15 + k) * step + (k == 4), n * 4));
-	TEST_ASSERT_EQUAL(0, memcmp(b.event, aligned + 22 * step, n * 4));
+	expect_saved(aligned, step, n);
 	lobe_scene_destroy(scene);
 	lobe_device_close(device);
+	/* A processor's OpenCL takes such a batch in tiles. */
+	if (lobe_device_open(&device, "opencl:0") == LOBE_OK) {
+		memset(aligned + 6 * step, 0xcc, 7 * step * 4);
+		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&scene, device, materials, 6));
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_sample(scene, &b), lobe_error_message());
+		expect_saved(aligned, step, n);
+		lobe_scene_destroy(scene);
+		lobe_device_close(device);
+	} else
+		printf("  no OpenCL device\n");
 	free(memory);
 }
 
