@@ -48,11 +48,11 @@
 #define LOBE_LOOP
 #endif
 
-/* The loop of one work-item over its share of [first, last). */
-#define LOBE_FOR(i)                                                                                                    \
+/* One work-item's share of [first, last), and the loop over it. */
+#define LOBE_SHARE                                                                                                     \
 	const ulong begin = first + get_global_id(0) * LOBE_RUN;                                                       \
-	const ulong end = min(begin + LOBE_RUN, last);                                                                 \
-	LOBE_LOOP for (ulong i = begin; i < end; i++)
+	const ulong end = min(begin + LOBE_RUN, last);
+#define LOBE_FOR(i) LOBE_SHARE LOBE_LOOP for (ulong i = begin; i < end; i++)
 
 #define LOBE_INPUT(a) __global const float *restrict a##_x, __global const float *restrict a##_y, \
 		      __global const float *restrict a##_z
@@ -108,6 +108,12 @@
 
 /* --- kernels --- */
 
+#define LOBE_MIXED_HEAD(lobe, verb, form)                                                                              \
+	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                   \
+		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
+		__global const uint *restrict slot, __global const uint *restrict material,                            \
+		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)
+
 #if LOBE_MIXED && LOBE_LOOPS
 /* A processor gathers and scatters slowly, sixteen words in the time of as many plain loads and more: a block's elements
  * are brought together one by one, shaded where they lie side by side, and put back. LOBE_BODY finds the block's arrays
@@ -143,15 +149,11 @@
 #endif
 
 #define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
-	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                   \
-		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
-		__global const uint *restrict slot, __global const uint *restrict material,                            \
-		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
+	LOBE_MIXED_HEAD(lobe, verb, form)                                                                              \
 	{                                                                                                              \
 		LOBE_INPUTS_##verb(LOBE_FAR_IN)                                                                        \
 		LOBE_OUTPUTS_##verb(LOBE_FAR_OUT, LOBE_FAR_EVENT)                                                      \
-		const ulong begin = first + get_global_id(0) * LOBE_RUN;                                               \
-		const ulong end = min(begin + LOBE_RUN, last);                                                         \
+		LOBE_SHARE                                                                                             \
 		const bool ok = true;                                                                                  \
 		for (ulong block = begin; block < end; block += LOBE_BLOCK) {                                          \
 			LOBE_INPUTS_##verb(LOBE_NEAR)                                                                  \
@@ -183,10 +185,7 @@
 	}
 #elif LOBE_MIXED
 #define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
-	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                   \
-		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
-		__global const uint *restrict slot, __global const uint *restrict material,                            \
-		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
+	LOBE_MIXED_HEAD(lobe, verb, form)                                                                              \
 	{                                                                                                              \
 		LOBE_FOR(i) {                                                                                          \
 			const ulong e = base + order[i];                                                               \

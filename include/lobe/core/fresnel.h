@@ -65,7 +65,7 @@ LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_unit(lobe_real c, lobe_rea
 	return f;
 }
 
-/* At a normal. g^2 = eta^2 c^2 + k |w x m|^2 cancels nowhere but at the edge of total reflection. */
+/* At a normal, which the caller has c, g, x and m2 of, by whatever form keeps their digits there. */
 LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_at(lobe_fresnel_interface f, lobe_real c, lobe_real g,
 							 lobe_real x, lobe_real m2)
 {
