@@ -98,10 +98,11 @@ typedef struct {
 LOBE_FN lobe_film_bottoms lobe_film_bottoms_conductor(lobe_film_top top, lobe_real index, lobe_real n, lobe_real k)
 {
 	const lobe_real zero = LOBE_R(0.0);
-	const lobe_fresnel_conductor_root m = lobe_fresnel_conductor_root_make(top.s2, n, k);
-	const lobe_real small = LOBE_R(0.5) * m.nk2 / lobe_max(m.big, LOBE_R(0x1p-60));
+	const lobe_fresnel_conductor_root m = lobe_fresnel_conductor_root_make(top.c * top.c, n, k);
+	const lobe_real large = lobe_sqrt(LOBE_R(0.5) * m.sum);
+	const lobe_real small = LOBE_R(0.5) * m.nk2 / large;
 	const int thick = m.t >= zero;
-	const lobe_complex root = lobe_complex_make(thick ? m.big : small, thick ? small : m.big);
+	const lobe_complex root = lobe_complex_make(thick ? large : small, thick ? small : large);
 	const lobe_complex n2_g = lobe_complex_make((n - k) * (n + k) * top.g, m.nk2 * top.g);
 	lobe_film_bottoms b;
 	b.s = lobe_film_bottom_from_real(top.g, root);
