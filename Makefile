@@ -128,7 +128,7 @@ $(B)/embed: cl/embed.c
 	@echo "  link  $@"
 	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $< -o $@
 
-$(B)/gen/opencl_source.c: $(B)/embed cl/kernels.cl $(HEADERS) | $(B)/gen
+$(B)/gen/opencl_source.c: $(B)/embed $(wildcard cl/*.cl) $(HEADERS) | $(B)/gen
 	@echo "  embed $@"
 	$(Q)echo '#include "lobe/batch.h"' > $@.tmp
 	$(Q)$(B)/embed include/lobe/shading.h lobe_opencl_source cl/kernels.cl lobe_opencl_kernels >> $@.tmp

@@ -73,8 +73,9 @@ static int sort(const void *context)
 	const float *const *const second = bench_verb_samples(s->mixed->verb) ? b->u : b->wi;
 	void *out[LOBE_OUT_COUNT];
 	const size_t outputs = list_outputs(b, out);
-	for (size_t at = 0; at < b->count; at += LOBE_NATIVE_SPLIT_MAX) {
-		const size_t n = b->count - at < LOBE_NATIVE_SPLIT_MAX ? b->count - at : LOBE_NATIVE_SPLIT_MAX;
+	const size_t block = lobe_native_split_block(scene);
+	for (size_t at = 0; at < b->count; at += block) {
+		const size_t n = b->count - at < block ? b->count - at : block;
 		uint32_t begin[LOBE_NATIVE_SPLIT_KEYS], count[LOBE_NATIVE_SPLIT_KEYS];
 		const void *from[LOBE_OUT_COUNT];
 		void *to[LOBE_OUT_COUNT];

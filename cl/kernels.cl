@@ -7,7 +7,8 @@
  *	lobe_kernel_<lobe>_<verb>_many	table[slot[material[element]]]
  *	lobe_kernel_<lobe>_<verb>_mixed	the same, for the elements that order[] lists: those of this lobe
  *
- * the last only where LOBE_MIXED is 1: the scene has several lobes. A processor brings those elements together first.
+ * the last only where LOBE_MIXED is 1: the scene has several lobes. A processor has one for each verb in place of them,
+ * lobe_kernel_mixed_<verb> (mixed.cl).
  *
  * Each runs the indices [first, last), LOBE_RUN of them in one work-item. On a GPU that is 1, so that adjacent
  * work-items touch adjacent memory, and the loop turns into an `if` for the padded global size. On a processor, where
@@ -108,84 +109,12 @@
 
 /* --- kernels --- */
 
-#define LOBE_MIXED_HEAD(lobe, verb, form)                                                                              \
+#if LOBE_MIXED && !LOBE_LOOPS
+#define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
 	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_mixed(                                                   \
 		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe),                                           \
 		__global const uint *restrict slot, __global const uint *restrict material,                            \
-		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)
-
-#if LOBE_MIXED && LOBE_LOOPS
-/* A processor gathers and scatters slowly, sixteen words in the time of as many plain loads and more: a block's elements
- * are brought together one by one, shaded where they lie side by side, and put back. LOBE_BODY finds the block's arrays
- * under the names of the kernel's, which are far_ here. A block of one material, as most are in a scene that has one of
- * each lobe, keeps its parameters in registers. */
-#define LOBE_BLOCK 256u
-
-#define LOBE_DIRECTIONS(M, a) M(a##_x) M(a##_y) M(a##_z)
-#define LOBE_INPUTS_eval_f(M) LOBE_DIRECTIONS(M, wo) LOBE_DIRECTIONS(M, wi)
-#define LOBE_INPUTS_eval_pdf(M) LOBE_INPUTS_eval_f(M)
-#define LOBE_INPUTS_eval_f_pdf(M) LOBE_INPUTS_eval_f(M)
-#define LOBE_INPUTS_sample(M) LOBE_DIRECTIONS(M, wo) LOBE_DIRECTIONS(M, u)
-#define LOBE_INPUTS_sample_wi(M) LOBE_INPUTS_sample(M)
-/* EVENT: what M is to floats. */
-#define LOBE_OUTPUTS_eval_f(M, EVENT) M(f_r) M(f_g) M(f_b)
-#define LOBE_OUTPUTS_eval_pdf(M, EVENT) M(pdf)
-#define LOBE_OUTPUTS_eval_f_pdf(M, EVENT) LOBE_OUTPUTS_eval_f(M, EVENT) M(pdf)
-#define LOBE_OUTPUTS_sample(M, EVENT) LOBE_OUTPUTS_sample_wi(M, EVENT) M(weight_r) M(weight_g) M(weight_b) M(pdf)
-#define LOBE_OUTPUTS_sample_wi(M, EVENT) LOBE_DIRECTIONS(M, wi) EVENT(event)
-
-#define LOBE_FAR_IN(a) __global const float *restrict far_##a = a;
-#define LOBE_FAR_OUT(a) __global float *restrict far_##a = a;
-#define LOBE_FAR_EVENT(a) __global uint *restrict far_##a = a;
-#define LOBE_NEAR(a) float a[LOBE_BLOCK];
-#define LOBE_NEAR_EVENT(a) uint a[LOBE_BLOCK];
-#define LOBE_FETCH(a) a[j] = far_##a[at];
-#define LOBE_PUT(a) far_##a[at] = a[j];
-
-#ifdef __clang__
-#define LOBE_ONE_BY_ONE _Pragma("clang loop vectorize(disable)")
-#else
-#define LOBE_ONE_BY_ONE
-#endif
-
-#define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
-	LOBE_MIXED_HEAD(lobe, verb, form)                                                                              \
-	{                                                                                                              \
-		LOBE_INPUTS_##verb(LOBE_FAR_IN)                                                                        \
-		LOBE_OUTPUTS_##verb(LOBE_FAR_OUT, LOBE_FAR_EVENT)                                                      \
-		LOBE_SHARE                                                                                             \
-		const bool ok = true;                                                                                  \
-		for (ulong block = begin; block < end; block += LOBE_BLOCK) {                                          \
-			LOBE_INPUTS_##verb(LOBE_NEAR)                                                                  \
-			LOBE_OUTPUTS_##verb(LOBE_NEAR, LOBE_NEAR_EVENT)                                                \
-			uint place[LOBE_BLOCK], differ = 0u;                                                           \
-			const uint n = (uint)min(end - block, (ulong)LOBE_BLOCK);                                      \
-			LOBE_ONE_BY_ONE for (uint j = 0u; j < n; j++) {                                                \
-				const ulong at = base + order[block + j];                                              \
-				place[j] = slot[material[at]];                                                         \
-				differ |= place[j] ^ place[0];                                                         \
-				LOBE_INPUTS_##verb(LOBE_FETCH)                                                         \
-			}                                                                                              \
-			if (differ == 0u) {                                                                            \
-				const lobe_##lobe p = LOBE_AT_##form(lobe, place[0]);                                  \
-				LOBE_LOOP for (uint e = 0u; e < n; e++) {                                              \
-					LOBE_BODY_##verb(lobe)                                                         \
-				}                                                                                      \
-			} else {                                                                                       \
-				LOBE_LOOP for (uint e = 0u; e < n; e++) {                                              \
-					const lobe_##lobe p = LOBE_AT_##form(lobe, place[e]);                          \
-					LOBE_BODY_##verb(lobe)                                                         \
-				}                                                                                      \
-			}                                                                                              \
-			LOBE_ONE_BY_ONE for (uint j = 0u; j < n; j++) {                                                \
-				const ulong at = base + order[block + j];                                              \
-				LOBE_OUTPUTS_##verb(LOBE_PUT, LOBE_PUT)                                                \
-			}                                                                                              \
-		}                                                                                                      \
-	}
-#elif LOBE_MIXED
-#define LOBE_KERNEL_MIXED(lobe, verb, form)                                                                            \
-	LOBE_MIXED_HEAD(lobe, verb, form)                                                                              \
+		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
 	{                                                                                                              \
 		LOBE_FOR(i) {                                                                                          \
 			const ulong e = base + order[i];                                                               \
@@ -242,7 +171,18 @@ __kernel void lobe_kernel_zero(ulong first, ulong last, ulong run, __global uint
 		out[e] = 0u;
 }
 
-#if LOBE_MIXED
+#if LOBE_MIXED && LOBE_LOOPS
+#define LOBE_VERB eval_f
+#include "mixed.cl"
+#define LOBE_VERB eval_pdf
+#include "mixed.cl"
+#define LOBE_VERB eval_f_pdf
+#include "mixed.cl"
+#define LOBE_VERB sample
+#include "mixed.cl"
+#define LOBE_VERB sample_wi
+#include "mixed.cl"
+#elif LOBE_MIXED
 __kernel void lobe_kernel_zero_mixed(ulong first, ulong last, ulong run, __global const uint *restrict order,
 				     ulong base, __global uint *restrict out)
 {

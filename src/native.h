@@ -59,6 +59,9 @@ typedef struct {
 /* The only lobe of a batch (LOBE_INDEX_NONE too), or -1. */
 int lobe_native_whole(const lobe_scene *scene, const lobe_job *job);
 
+/* Elements of a block of several lobes. */
+size_t lobe_native_split_block(const lobe_scene *scene);
+
 /* A lobe_pool_work; context: a lobe_native_job. */
 void lobe_native_chunk(void *context, size_t chunk, size_t thread);
 

@@ -226,13 +226,22 @@ static void shade_none(const lobe_job *job, const block *b)
 			memset(b->out[k], 0, 4 * b->n);
 }
 
+size_t lobe_native_split_block(const lobe_scene *scene)
+{
+	const lobe_native_scene *const state = scene->state;
+	const size_t n = (size_t)LOBE_NATIVE_SPLIT_EACH * state->keys;
+	if (!state->by_material || n > LOBE_NATIVE_SPLIT_MAX)
+		return LOBE_NATIVE_SPLIT_MAX;
+	return n < LOBE_NATIVE_SPLIT_MIN ? LOBE_NATIVE_SPLIT_MIN : n;
+}
+
 /* Elements that are shaded at a time. */
 static size_t block_size(const lobe_native_job *j, int whole)
 {
 	const lobe_job *const job = j->job;
 	int apart = job->material && (job->material_stride != 4 || j->scene->count > 1);
 	if (whole < 0)
-		return LOBE_NATIVE_SPLIT_MAX;
+		return lobe_native_split_block(j->scene);
 	for (int k = 0; k < LOBE_IN_COUNT; k++)
 		apart |= job->in_stride[k] != 4;
 	for (int k = 0; k < LOBE_OUT_COUNT; k++)

@@ -6,7 +6,12 @@
 #include "internal.h"
 
 enum {
-	LOBE_NATIVE_SPLIT_MAX = 2048,  /* elements of a block */
+	/* Elements of a block: the fewer, the more of them stay in the first-level cache, and the more, the less it counts
+	 * what a loop does before its first element. So many for each material, from the least to the most, which is
+	 * also what those have that are split by lobe. */
+	LOBE_NATIVE_SPLIT_EACH = 128,
+	LOBE_NATIVE_SPLIT_MIN = 512,
+	LOBE_NATIVE_SPLIT_MAX = 2048,
 	LOBE_NATIVE_SPLIT_VECTOR = 16, /* each key's elements begin at a multiple of this */
 	/* Scenes of no more materials are split by material, so that their parameters are constants of the loops;
 	 * others by lobe. */

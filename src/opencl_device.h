@@ -27,6 +27,7 @@ typedef struct lobe_cl_program {
 	cl_program program;
 	lobe_cl_kernel shade[LOBE_COUNT][LOBE_VERB_COUNT][LOBE_CL_HOW_COUNT];
 	lobe_cl_kernel zero, zero_mixed;
+	lobe_cl_kernel mixed[LOBE_VERB_COUNT]; /* of a processor, in place of those of LOBE_CL_MIXED */
 	char *key; /* in the cache, owned; NULL when there is nothing to look for there or to write to it any more */
 	size_t key_size;
 	size_t kept_size; /* of the binary in the cache, as far as is known here; 0: none */
@@ -72,6 +73,7 @@ typedef struct {
 	lobe_cl_program *program;
 	cl_mem table[LOBE_COUNT]; /* of each lobe that the scene has */
 	cl_mem slot;              /* scene->slot, with LOBE_CL_NO_SLOT */
+	cl_mem number;            /* of each material's lobe among the scene's (cl/mixed.cl), or NULL: not needed */
 	cl_mem tables;            /* scene->tables, or NULL */
 	int lobe_count;           /* lobes that the scene has */
 	int last_lobe;            /* one of them */
@@ -97,7 +99,11 @@ lobe_status lobe_cl_scene_create(lobe_scene *scene);
 void lobe_cl_scene_destroy(lobe_scene *scene);
 void lobe_cl_programs_release(lobe_cl_device *device);
 
-/* The kernel of a lobe and verb, or lobe < 0: zero (LOBE_CL_ONE) or zero_mixed (LOBE_CL_MIXED). */
+/* In place of a lobe: all of them. */
+enum { LOBE_CL_NO_LOBE = -1, LOBE_CL_EVERY_LOBE = -2 };
+
+/* The kernel of a lobe and verb, of LOBE_CL_EVERY_LOBE and a verb, or of LOBE_CL_NO_LOBE: zero (LOBE_CL_ONE) or
+ * zero_mixed (LOBE_CL_MIXED). */
 lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program, int lobe, int verb, int how,
 			       lobe_cl_kernel *out);
 

@@ -8,10 +8,6 @@
 #define LOBE_CL_LAUNCH_MAX ((size_t)1 << 30)
 #endif
 
-/* Elements of a mixed batch that a processor shades before the next ones: the kernels of all lobes pass over them, and
- * their arrays, of 5 to 7 MB, stay in its last-level cache. */
-#define LOBE_CL_MIXED_TILE ((size_t)1 << 17)
-
 /* --- kept buffers --- */
 
 lobe_status lobe_cl_grow(lobe_cl_device *device, lobe_cl_buffer *buffer, size_t count)
@@ -118,6 +114,24 @@ static lobe_status launch(arguments *a, size_t local, size_t first, size_t last)
 	return LOBE_OK;
 }
 
+static void put_table(arguments *a, const lobe_cl_scene *state, int lobe)
+{
+	put_mem(a, state->table[lobe]);
+	if (lobe_is_tabled(lobe))
+		put_mem(a, state->tables);
+}
+
+static void put_arrays(arguments *a, const lobe_cl_shading *b)
+{
+	int i;
+	for (i = 0; i < LOBE_IN_COUNT; i++)
+		put_mem(a, b->in[i]);
+	for (i = 0; i < LOBE_OUT_COUNT; i++) {
+		if (lobe_verb_writes(b->verb, i))
+			put_mem(a, b->out[i]);
+	}
+}
+
 /* The elements of one lobe. first, last: elements, or places in order in the mixed case. */
 static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t first, size_t last, size_t base)
 {
@@ -126,16 +140,13 @@ static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t fir
 	lobe_cl_kernel kernel;
 	arguments a;
 	lobe_status status;
-	int i;
 	if (first == last)
 		return LOBE_OK;
 	status = lobe_cl_kernel_get(b->device, state->program, lobe, b->verb, how, &kernel);
 	if (status != LOBE_OK)
 		return status;
 	a = begin(b, kernel.kernel);
-	put_mem(&a, state->table[lobe]);
-	if (lobe_is_tabled(lobe))
-		put_mem(&a, state->tables);
+	put_table(&a, state, lobe);
 	if (how != LOBE_CL_ONE)
 		put_mem(&a, state->slot);
 	if (how == LOBE_CL_MANY)
@@ -146,13 +157,31 @@ static lobe_status shade(const lobe_cl_shading *b, int lobe, int how, size_t fir
 		put_mem(&a, b->lane->order.mem);
 		put_ulong(&a, base);
 	}
-	for (i = 0; i < LOBE_IN_COUNT; i++)
-		put_mem(&a, b->in[i]);
-	for (i = 0; i < LOBE_OUT_COUNT; i++) {
-		if (lobe_verb_writes(b->verb, i))
-			put_mem(&a, b->out[i]);
-	}
+	put_arrays(&a, b);
 	return launch(&a, kernel.local, first, last);
+}
+
+/* The elements of all lobes, sorted by the work-items. */
+static lobe_status shade_every(const lobe_cl_shading *b, size_t count)
+{
+	const lobe_cl_scene *const state = b->scene->state;
+	lobe_cl_kernel kernel;
+	arguments a;
+	int lobe;
+	const lobe_status status = lobe_cl_kernel_get(b->device, state->program, LOBE_CL_EVERY_LOBE, b->verb,
+						      LOBE_CL_MIXED, &kernel);
+	if (status != LOBE_OK)
+		return status;
+	a = begin(b, kernel.kernel);
+	for (lobe = 0; lobe < LOBE_COUNT; lobe++) {
+		if (state->table[lobe])
+			put_table(&a, state, lobe);
+	}
+	put_mem(&a, state->number);
+	put_mem(&a, state->slot);
+	put_mem(&a, b->material);
+	put_arrays(&a, b);
+	return launch(&a, kernel.local, 0, count);
 }
 
 /* 0 to every wanted output, for elements of LOBE_KIND_NONE. */
@@ -164,7 +193,7 @@ static lobe_status zero(const lobe_cl_shading *b, int how, size_t first, size_t 
 	int i;
 	if (first == last)
 		return LOBE_OK;
-	status = lobe_cl_kernel_get(b->device, state->program, -1, 0, how, &kernel);
+	status = lobe_cl_kernel_get(b->device, state->program, LOBE_CL_NO_LOBE, 0, how, &kernel);
 	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
 		arguments a;
 		if (!b->wanted[i])
@@ -205,8 +234,7 @@ static lobe_status sort(const lobe_cl_shading *b, const uint32_t *material, size
 /* Elements of several lobes: each lobe in a launch of its own. material: a host copy of b->material. */
 static lobe_status shade_mixed(const lobe_cl_shading *b, const uint32_t *material, size_t count)
 {
-	const size_t most = b->device->loops ? LOBE_CL_MIXED_TILE : LOBE_CL_LAUNCH_MAX;
-	const size_t limit = lobe_cl_smaller(lobe_cl_smaller(most, LOBE_CL_LAUNCH_MAX), b->device->max_count);
+	const size_t limit = lobe_cl_smaller(LOBE_CL_LAUNCH_MAX, b->device->max_count);
 	size_t start[LOBE_COUNT + 2];
 	lobe_status status = LOBE_OK;
 	size_t base = 0;
@@ -236,7 +264,7 @@ lobe_status lobe_cl_enqueue(const lobe_cl_shading *b, const uint32_t *host_mater
 		return shade(b, (int)b->scene->index[0], LOBE_CL_ONE, 0, count, 0);
 	if (state->lobe_count == 1)
 		return shade(b, state->last_lobe, LOBE_CL_MANY, 0, count, 0);
-	return shade_mixed(b, host_material, count);
+	return b->device->loops ? shade_every(b, count) : shade_mixed(b, host_material, count);
 }
 
 lobe_status lobe_cl_add_scratch(lobe_cl_shading *b, size_t count)

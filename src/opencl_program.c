@@ -106,6 +106,10 @@ void lobe_cl_programs_release(lobe_cl_device *device)
 			if (shade[i].kernel)
 				cl->clReleaseKernel(shade[i].kernel);
 		}
+		for (i = 0; i < LOBE_VERB_COUNT; i++) {
+			if (p->mixed[i].kernel)
+				cl->clReleaseKernel(p->mixed[i].kernel);
+		}
 		if (p->zero.kernel)
 			cl->clReleaseKernel(p->zero.kernel);
 		if (p->zero_mixed.kernel)
@@ -147,7 +151,10 @@ lobe_status lobe_cl_kernel_get(lobe_cl_device *device, lobe_cl_program *program,
 	lobe_cl_kernel *kept;
 	lobe_status status = LOBE_OK;
 	char name[128];
-	if (lobe < 0) {
+	if (lobe == LOBE_CL_EVERY_LOBE) {
+		kept = &program->mixed[verb];
+		snprintf(name, sizeof name, "lobe_kernel_mixed_%s", verbs[verb]);
+	} else if (lobe == LOBE_CL_NO_LOBE) {
 		kept = how == LOBE_CL_MIXED ? &program->zero_mixed : &program->zero;
 		snprintf(name, sizeof name, "lobe_kernel_zero%s", how == LOBE_CL_MIXED ? "_mixed" : "");
 	} else {
@@ -176,28 +183,33 @@ static lobe_status upload(lobe_cl_device *device, const void *data, size_t size,
 	return LOBE_OK;
 }
 
-static lobe_status upload_slots(lobe_cl_device *device, const lobe_scene *scene, cl_mem *out)
+/* One number of each material. */
+static lobe_status upload_numbers(lobe_cl_device *device, const lobe_scene *scene, const uint32_t *of_index,
+				  const uint32_t *of_material, uint32_t of_none, cl_mem *out)
 {
-	uint32_t *const slot = malloc(scene->count * sizeof *slot);
+	uint32_t *const number = malloc(scene->count * sizeof *number);
 	lobe_status status;
 	size_t i;
-	if (!slot)
+	if (!number)
 		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
-	for (i = 0; i < scene->count; i++)
-		slot[i] = scene->index[i] == LOBE_INDEX_NONE ? LOBE_CL_NO_SLOT : scene->slot[i];
-	status = upload(device, slot, scene->count * sizeof *slot, out);
-	free(slot);
+	for (i = 0; i < scene->count; i++) {
+		const uint32_t index = scene->index[i];
+		number[i] = index == LOBE_INDEX_NONE ? of_none : of_index ? of_index[index] : of_material[i];
+	}
+	status = upload(device, number, scene->count * sizeof *number, out);
+	free(number);
 	return status;
 }
 
 static lobe_status fill_state(lobe_cl_device *device, const lobe_scene *scene, lobe_cl_scene *state)
 {
+	uint32_t number[LOBE_COUNT];
 	lobe_status status;
 	int lobe;
 	for (lobe = 0; lobe < LOBE_COUNT; lobe++) {
 		if (scene->table[lobe].count == 0)
 			continue;
-		state->lobe_count++;
+		number[lobe] = (uint32_t)state->lobe_count++;
 		state->last_lobe = lobe;
 	}
 	status = get_program(device, scene->options, state->lobe_count > 1, &state->program);
@@ -210,7 +222,9 @@ static lobe_status fill_state(lobe_cl_device *device, const lobe_scene *scene, l
 	if (status == LOBE_OK && scene->table_words)
 		status = upload(device, scene->tables, scene->table_words * sizeof *scene->tables, &state->tables);
 	if (status == LOBE_OK)
-		status = upload_slots(device, scene, &state->slot);
+		status = upload_numbers(device, scene, NULL, scene->slot, LOBE_CL_NO_SLOT, &state->slot);
+	if (status == LOBE_OK && device->loops && state->lobe_count > 1)
+		status = upload_numbers(device, scene, number, NULL, (uint32_t)state->lobe_count, &state->number);
 	return status;
 }
 
@@ -225,6 +239,8 @@ static void release_state(lobe_cl_device *device, lobe_cl_scene *state)
 		device->cl->clReleaseMemObject(state->tables);
 	if (state->slot)
 		device->cl->clReleaseMemObject(state->slot);
+	if (state->number)
+		device->cl->clReleaseMemObject(state->number);
 	free(state);
 }
 

@@ -73,6 +73,15 @@ LOBE_FN lobe_real lobe_exp_normal(lobe_real x)
 	return lobe_from_bits(lobe_to_bits(lobe_exp_fraction(r)) + (lobe_to_bits(shifted) << 23));
 }
 
+/* e^x for x <= 0, and 0 for x < -87: never a subnormal number. One of those among the elements of a vector, as operand
+ * or result, takes some processors as long as a hundred operations. x is no NaN, or the result does not count. */
+LOBE_FN lobe_real lobe_exp_or_zero(lobe_real x)
+{
+	const lobe_real lo = LOBE_R(-87.0);
+	const lobe_real e = lobe_exp_normal(x < lo ? lo : x);
+	return x < lo ? LOBE_R(0.0) : e;
+}
+
 /* x = 2^exponent * (1 + fraction) with 1 + fraction in [sqrt(1/2), sqrt(2)), for 0 < x < inf. */
 typedef struct {
 	lobe_real exponent, fraction;

@@ -4,7 +4,8 @@
  * lobe_exp lobe_exp2 lobe_log lobe_log2 lobe_pow                                        explog.h
  * lobe_erf lobe_erfcx lobe_ierfcx lobe_erfinv                                           erf.h
  *
- * Where more is known of the argument: lobe_sincos_2pi_small, lobe_exp_normal, lobe_log_normal, lobe_log_rough.
+ * Where more is known of the argument: lobe_sincos_2pi_small, lobe_exp_normal, lobe_exp_or_zero, lobe_log_normal,
+ * lobe_log_rough.
  *
  * In single precision each is a few polynomials without a branch, a loop, a table or a call into libm, so that a row
  * loop over them vectorises. What could be ill defined is selected away before it happens: no float leaves the range of
@@ -44,6 +45,7 @@ LOBE_FN lobe_real lobe_atan(lobe_real x) { return atan(x); }
 LOBE_FN lobe_real lobe_atan2(lobe_real y, lobe_real x) { return atan2(y, x); }
 LOBE_FN lobe_real lobe_exp(lobe_real x) { return exp(x); }
 LOBE_FN lobe_real lobe_exp_normal(lobe_real x) { return exp(x); }
+LOBE_FN lobe_real lobe_exp_or_zero(lobe_real x) { return exp(x); }
 LOBE_FN lobe_real lobe_exp2(lobe_real x) { return exp2(x); }
 LOBE_FN lobe_real lobe_log(lobe_real x) { return log(x); }
 LOBE_FN lobe_real lobe_log_rough(lobe_real x) { return log(x); }

@@ -20,7 +20,7 @@
 LOBE_FN lobe_facet_density lobe_ndf_density_over(lobe_uint ndf, lobe_vec3 h2, lobe_real s)
 {
 #if LOBE_HAS_NDF_BECKMANN
-	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
+	if ((ndf == LOBE_NDF_BECKMANN) | !LOBE_HAS_NDF_GGX)
 		return lobe_beckmann_density_over(h2, s);
 #endif
 #if LOBE_HAS_NDF_GGX
@@ -33,7 +33,7 @@ LOBE_FN lobe_facet_density lobe_ndf_density_over(lobe_uint ndf, lobe_vec3 h2, lo
 LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 {
 #if LOBE_HAS_NDF_BECKMANN
-	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
+	if ((ndf == LOBE_NDF_BECKMANN) | !LOBE_HAS_NDF_GGX)
 		return lobe_beckmann_t(v);
 #endif
 #if LOBE_HAS_NDF_GGX
@@ -47,7 +47,7 @@ LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t
 {
 	(void)t;
 #if LOBE_HAS_NDF_BECKMANN
-	if (ndf == LOBE_NDF_BECKMANN || !LOBE_HAS_NDF_GGX)
+	if ((ndf == LOBE_NDF_BECKMANN) | !LOBE_HAS_NDF_GGX)
 		return lobe_beckmann_visible_above(v, u);
 #endif
 #if LOBE_HAS_NDF_GGX
