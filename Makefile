@@ -185,6 +185,9 @@ $(eval $(call PICTURES,heightfield))
 # -j of the caller's, or one job for each processor.
 JOBS = $(if $(findstring -j,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 2))
 
+# PoCL's threads stay on a processor each: where they wander, a batch may take twice as long.
+run bench report: export POCL_AFFINITY ?= 1
+
 run:
 	@./deps.sh run
 	+@$(MAKE) --no-print-directory $(JOBS) all $(B)/own_kernel $(B)/gallery $(B)/heightfield

@@ -209,9 +209,9 @@ static void put_outputs(FILE *csv, const bench_plan *plan, const bench_results *
 
 /* --- choices ------------------------------------------------------------------------------------------------------ */
 
-/* A lobe that chooses at run time, in a program compiled for its choices and in one that can do them all. What building
- * them costs: bench/build_time.c. */
-static int put_choices(FILE *csv, const bench_plan *plan, const bench_device *d)
+/* A lobe that chooses at run time, in a program compiled for its choices and in one of a scene, open, that makes them
+ * all. What building them costs: bench/build_time.c. */
+static int put_choices(FILE *csv, const bench_plan *plan, const bench_device *d, int lobe, int open)
 {
 	static const int verbs[] = {BENCH_EVAL_PDF, BENCH_SAMPLE};
 	const size_t n = 1u << 16;
@@ -224,15 +224,14 @@ static int put_choices(FILE *csv, const bench_plan *plan, const bench_device *d)
 		for (int i = 0; ok && i < 2; i++, scenes += ok) {
 			shading[i].verb = verbs[v];
 			shading[i].batch = bench_batch(&a, verbs[v], n);
-			ok = bench_scene_create(&shading[i].scene, d->device,
-						i ? BENCH_OPEN : (int)BENCH_LOBE_MICROFACET_CONDUCTOR) == LOBE_OK;
+			ok = bench_scene_create(&shading[i].scene, d->device, i ? open : lobe) == LOBE_OK;
 			racer[i] = bench_shading_racer(&shading[i], 1);
 		}
 		if (ok && bench_race(racer, 2, plan->runs)) {
 			char what[96];
 			snprintf(what, sizeof what, "%s, every choice open; %s", bench_verb_name(verbs[v]), d->label);
-			put(csv, what, "microfacet_conductor", racer[1].rate.median, 0.0, "M/s");
-			put(csv, "  compiled for the one that is made", "microfacet_conductor", racer[0].rate.median,
+			put(csv, what, bench_lobe_name(lobe), racer[1].rate.median, 0.0, "M/s");
+			put(csv, "  compiled for the one that is made", bench_lobe_name(lobe), racer[0].rate.median,
 			    racer[1].rate.median, "M/s");
 		}
 		for (int i = 0; i < scenes; i++)
@@ -258,6 +257,7 @@ int bench_pruning(const bench_plan *plan, const bench_results *results, const ch
 	int ok = 1;
 	for (int d = 0; ok && d < plan->device_count; d++)
 		if (bench_is_opencl(&plan->devices[d]))
-			ok = put_choices(csv, plan, &plan->devices[d]);
+			ok = put_choices(csv, plan, &plan->devices[d], BENCH_LOBE_MICROFACET_CONDUCTOR, BENCH_OPEN) &&
+			     put_choices(csv, plan, &plan->devices[d], BENCH_LOBE_GGX_DIELECTRIC, BENCH_OPEN_GLASS);
 	return fclose(csv) == 0 && ok;
 }

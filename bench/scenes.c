@@ -157,7 +157,10 @@ static const struct {
 
 const char *bench_lobe_name(int lobe)
 {
-	return lobe < BENCH_LOBES ? lobes[lobe].name : lobe == BENCH_OPEN ? "open choices" : "all";
+	return lobe < BENCH_LOBES          ? lobes[lobe].name
+	       : lobe == BENCH_OPEN       ? "open choices"
+	       : lobe == BENCH_OPEN_GLASS ? "open glass"
+					  : "all";
 }
 
 lobe_bsdf bench_lobe_material(int lobe) { return lobes[lobe].material(); }
@@ -165,6 +168,14 @@ lobe_bsdf bench_lobe_material(int lobe) { return lobes[lobe].material(); }
 lobe_status bench_scene_create(lobe_scene **out, lobe_device *device, int lobe)
 {
 	lobe_bsdf material[BENCH_LOBES];
+	if (lobe == BENCH_OPEN_GLASS) {
+		static const float eta[] = {1.0f, 2.5f};
+		material[0] = bench_lobe_material(BENCH_LOBE_GGX_DIELECTRIC);
+		for (int i = 0; i < 2; i++)
+			material[1 + i] =
+				lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.2f, eta[i]));
+		return lobe_scene_create(out, device, material, 3);
+	}
 	if (lobe == BENCH_OPEN) {
 		material[0] = bench_lobe_material(BENCH_LOBE_MICROFACET_CONDUCTOR);
 		material[1] = material_choosing_otherwise();
@@ -220,6 +231,10 @@ int bench_devices_open(bench_device *devices, const char *only)
 {
 	int count = 0;
 	size_t opencl = 0;
+	/* Without it PoCL's threads wander, and often share a processor for as long as a batch takes. */
+	if (setenv("POCL_AFFINITY", "1", 0) == 0)
+		printf("setting    POCL_AFFINITY=%s, where PoCL is the OpenCL: each of its threads stays on a processor\n",
+		       getenv("POCL_AFFINITY"));
 	if (only) {
 		count = open_one(&devices[0], only);
 		if (count == 0)

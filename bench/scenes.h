@@ -9,7 +9,8 @@ enum {
 #include "lobe/lobes/lobes.def"
 #undef LOBE_X
 	BENCH_LOBES,
-	BENCH_OPEN = BENCH_LOBES + 1
+	BENCH_OPEN = BENCH_LOBES + 1,
+	BENCH_OPEN_GLASS
 };
 
 /* The lobe's name in lobes.def and its material. lobe: 0 .. BENCH_LOBES - 1. */
@@ -18,7 +19,7 @@ lobe_bsdf bench_lobe_material(int lobe);
 
 /* A scene of that lobe alone, or of every lobe when it is BENCH_LOBES. BENCH_OPEN: of the material of
  * microfacet_conductor and one that chooses otherwise wherever a choice is made at run time, so that a program for it
- * has all choices open. */
+ * has all choices open; BENCH_OPEN_GLASS: of the material of ggx_dielectric and such as are delta or dense. */
 lobe_status bench_scene_create(lobe_scene **out, lobe_device *device, int lobe);
 
 /* What a batch is asked for. */

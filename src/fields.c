@@ -48,14 +48,14 @@ static const field fields_ggx_conductor[] = {STRETCH(ggx_conductor, stretch), ME
 
 static const field fields_ggx_dielectric[] = {STRETCH(ggx_dielectric, stretch), INDEX(ggx_dielectric, eta),
 					      INDEX(ggx_dielectric, inv_eta),   TRANSPORT(ggx_dielectric, transport),
-					      UINT(ggx_dielectric, delta, 1),   UINT(ggx_dielectric, dense, 1)};
+					      CHOICE(DELTA, ggx_dielectric, delta, 1), CHOICE(DENSE, ggx_dielectric, dense, 1)};
 
 static const field fields_beckmann_conductor[] = {STRETCH(beckmann_conductor, stretch), METAL(beckmann_conductor)};
 
 static const field fields_beckmann_dielectric[] = {
 	STRETCH(beckmann_dielectric, stretch), INDEX(beckmann_dielectric, eta),
 	INDEX(beckmann_dielectric, inv_eta),   TRANSPORT(beckmann_dielectric, transport),
-	UINT(beckmann_dielectric, delta, 1),   UINT(beckmann_dielectric, dense, 1)};
+	CHOICE(DELTA, beckmann_dielectric, delta, 1), CHOICE(DENSE, beckmann_dielectric, dense, 1)};
 
 static const field fields_ggx_schlick[] = {STRETCH(ggx_schlick, stretch), RGB(ggx_schlick, f0, 0, 1),
 					   RGB(ggx_schlick, f90, 0, 1)};
@@ -76,7 +76,7 @@ static const field fields_iridescent_conductor[] = {STRETCH(iridescent_conductor
 static const field fields_iridescent_dielectric[] = {
 	STRETCH(iridescent_dielectric, glass.stretch), INDEX(iridescent_dielectric, glass.eta),
 	INDEX(iridescent_dielectric, glass.inv_eta),   TRANSPORT(iridescent_dielectric, glass.transport),
-	UINT(iridescent_dielectric, glass.delta, 1),   UINT(iridescent_dielectric, glass.dense, 1),
+	CHOICE(DELTA, iridescent_dielectric, glass.delta, 1), CHOICE(DENSE, iridescent_dielectric, glass.dense, 1),
 	FILM(iridescent_dielectric, 1.0001e6)};
 
 /* A table's handle has no domain here: lobe_check_table sees to it. */

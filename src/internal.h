@@ -126,8 +126,8 @@ extern const char *const lobe_in_names[2][LOBE_IN_COUNT], *const lobe_out_names[
 /* Checks every field of materials[i]; LOBE_ERROR_PARAMETER and a message that names i and the field. (fields.c) */
 lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i);
 
-/* What the microfacet_* lobes choose at run time: LOBE_ONLY_<NAME> of config.h. */
-#define LOBE_CHOICES(X) X(NDF) X(MASKING) X(JOINT) X(ACROSS) X(FRESNEL) X(STRATEGY)
+/* What lobes choose at run time: LOBE_ONLY_<NAME> of config.h. */
+#define LOBE_CHOICES(X) X(NDF) X(MASKING) X(JOINT) X(ACROSS) X(FRESNEL) X(STRATEGY) X(DELTA) X(DENSE)
 enum {
 #define LOBE_CHOICE_ENUM(NAME) LOBE_CHOICE_##NAME,
 	LOBE_CHOICES(LOBE_CHOICE_ENUM)

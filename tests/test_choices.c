@@ -106,6 +106,37 @@ static void test_options_leave_open_what_materials_choose_differently(void)
 	lobe_device_close(device);
 }
 
+/* Rough glass: whether it is near eta = 1, and whether beyond 2. */
+static void test_options_name_what_glass_is(void)
+{
+	const float eta[] = {1.5f, 1.0f, 2.5f, 1.5f};
+	lobe_device *device;
+	lobe_scene *scene;
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, "native:1"));
+	for (size_t first = 0; first < 4; first++)
+		for (size_t count = 1; first + count <= 4; count++) {
+			lobe_bsdf glass[4];
+			unsigned delta = 0, dense = 0;
+			for (size_t i = 0; i < count; i++) {
+				const float e = eta[first + i];
+				glass[i] = i & 1u ? lobe_bsdf_from_beckmann_dielectric(
+							    lobe_beckmann_dielectric_make(0.3f, 0.2f, e))
+						  : lobe_bsdf_from_ggx_dielectric(
+							    lobe_ggx_dielectric_make(0.3f, 0.2f, e));
+				delta |= 1u << (e == 1.0f);
+				dense |= 1u << (e == 2.5f);
+			}
+			TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&scene, device, glass, count));
+			const char *options = lobe_opencl_options(scene);
+			for (unsigned value = 0; value < 2; value++) {
+				TEST_ASSERT_EQUAL_MESSAGE(delta == 1u << value, says(options, "DELTA", value), options);
+				TEST_ASSERT_EQUAL_MESSAGE(dense == 1u << value, says(options, "DENSE", value), options);
+			}
+			lobe_scene_destroy(scene);
+		}
+	lobe_device_close(device);
+}
+
 /* --- bits ----------------------------------------------------------------------------------------------------------- */
 
 /* Words of all outputs. */
@@ -153,6 +184,28 @@ static void test_bits_of_a_program_for_one_material(void)
 	inputs_free(in);
 }
 
+/* Every CASE of rough glass, plain, delta and dense, in a program of its own. */
+static void test_bits_of_a_program_for_one_glass(void)
+{
+	size_t shaded = 0;
+	if (no_opencl())
+		TEST_IGNORE_MESSAGE("no OpenCL device");
+	inputs in = inputs_alloc(N);
+	inputs_random(in, 0);
+	for (size_t i = 0; i < case_count(); i++) {
+		const lobe_uint kind = case_at(i)->kind;
+		if (kind != LOBE_KIND_GGX_DIELECTRIC && kind != LOBE_KIND_BECKMANN_DIELECTRIC &&
+		    kind != LOBE_KIND_IRIDESCENT_DIELECTRIC)
+			continue;
+		shade(native, &case_at(i)->bsdf, 1, in, NULL, expected);
+		shade(opencl, &case_at(i)->bsdf, 1, in, NULL, got);
+		TEST_ASSERT_EQUAL_INT_MESSAGE(0, (int)differing(expected, got), case_at(i)->name);
+		shaded++;
+	}
+	TEST_ASSERT_GREATER_THAN_INT(5, (int)shaded);
+	inputs_free(in);
+}
+
 static void test_bits_of_a_program_with_some_choices_left(void)
 {
 	const lobe_bsdf two[2] = {conductor(LOBE_NDF_GGX, LOBE_MASKING_SMITH, LOBE_STRATEGY_VISIBLE),
@@ -195,7 +248,9 @@ int main(void)
 	UNITY_BEGIN();
 	RUN_TEST(test_options_name_what_one_material_chooses);
 	RUN_TEST(test_options_leave_open_what_materials_choose_differently);
+	RUN_TEST(test_options_name_what_glass_is);
 	RUN_TEST(test_bits_of_a_program_for_one_material);
+	RUN_TEST(test_bits_of_a_program_for_one_glass);
 	RUN_TEST(test_bits_of_a_program_with_some_choices_left);
 	RUN_TEST(test_another_choice_is_noticed);
 	lobe_device_close(opencl);

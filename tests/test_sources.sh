@@ -54,6 +54,30 @@ for compiler in gcc clang; do
 		check "$compiler: $lobe by itself" one_lobe $compiler "$lobe"
 	done
 done
+# OpenCL's compilers write such a warning to the standard error of whoever makes a scene. What a program may be compiled
+# for: all, one lobe, and of what that chooses the first or another value.
+printf '#include <stdio.h>\nconst char *lobe_opencl_source(void), *lobe_opencl_kernels(void);\nint main(void) { return printf("%%s%%s", lobe_opencl_source(), lobe_opencl_kernels()) < 0; }\n' >$out/program.c
+cc $out/program.c build/gen/opencl_source.c -Iinclude -o $out/program && $out/program >$out/program.cl
+choices() {
+	for choice in NDF MASKING JOINT ACROSS FRESNEL STRATEGY DELTA DENSE; do
+		grep -q "define LOBE_ONLY_$choice LOBE_ANY" include/lobe/config.h && printf ' -DLOBE_ONLY_%s=%s' $choice "$1" || return 1
+	done
+}
+program() {
+	for option in "-DLOBE_LOOPS=1 -DLOBE_MIXED=1" "-DLOBE_LOOPS=0 -DLOBE_MIXED=1" "-DLOBE_LOOPS=1 -DLOBE_MIXED=0 $(choices 0u)" \
+		"-DLOBE_LOOPS=1 -DLOBE_MIXED=0 $(choices 1u)"; do
+		# shellcheck disable=SC2086
+		clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Werror $option "$@" $out/program.cl || return 1
+	done
+}
+if command -v clang >/dev/null; then
+	check "OpenCL program of all lobes without a warning" program
+	for lobe in $lobes; do
+		check "OpenCL program of $lobe without a warning" program -DLOBE_HAS_DEFAULT=0 "-DLOBE_HAS_$(echo "$lobe" | tr a-z A-Z)=1"
+	done
+else
+	skip "OpenCL programs" "no clang here"
+fi
 for compiler in g++ clang++; do
 	if command -v $compiler >/dev/null; then
 		check "$compiler: headers as C++17" cplusplus $compiler

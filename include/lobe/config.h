@@ -5,7 +5,7 @@
  * LOBE_HAS_<LOBE>   0 leaves the lobe out: its header, its place in lobe_bsdf, its kernels
  *
  * LOBE_ONLY_<CHOICE> where something is chosen at run time, the number of the one value that ever is: all others are
- * left out
+ * left out. Glass that is neither near eta = 1 nor beyond 2: LOBE_ONLY_DELTA and LOBE_ONLY_DENSE 0
  *
  * A scene of two lobes compiles with -DLOBE_HAS_DEFAULT=0 and one -DLOBE_HAS_<LOBE>=1 for each. */
 #ifndef LOBE_CONFIG_H
@@ -75,7 +75,7 @@
 #define LOBE_HAS_NDF_BECKMANN (LOBE_HAS_BECKMANN_CONDUCTOR || LOBE_HAS_BECKMANN_DIELECTRIC)
 #endif
 
-/* What the microfacet_* lobes choose. LOBE_ANY: it is not known. */
+/* What the microfacet_* lobes choose, and what rough glass is (microfacet/dielectric.h). LOBE_ANY: it is not known. */
 #define LOBE_ANY                   0xffffffffu
 #define LOBE_CHOSEN(choice, only) ((only) == LOBE_ANY ? (choice) : (only))
 #ifndef LOBE_ONLY_NDF
@@ -96,7 +96,13 @@
 #ifndef LOBE_ONLY_STRATEGY
 #define LOBE_ONLY_STRATEGY LOBE_ANY
 #endif
-/* Then nothing is chosen at run time. */
+#ifndef LOBE_ONLY_DELTA
+#define LOBE_ONLY_DELTA LOBE_ANY
+#endif
+#ifndef LOBE_ONLY_DENSE
+#define LOBE_ONLY_DENSE LOBE_ANY
+#endif
+/* Then the microfacet_* lobes choose nothing at run time. */
 #define LOBE_ONLY_ONE                                                                                                  \
 	(LOBE_ONLY_NDF != LOBE_ANY && LOBE_ONLY_MASKING != LOBE_ANY && LOBE_ONLY_JOINT != LOBE_ANY &&                  \
 	 LOBE_ONLY_ACROSS != LOBE_ANY && LOBE_ONLY_FRESNEL != LOBE_ANY && LOBE_ONLY_STRATEGY != LOBE_ANY)

@@ -46,6 +46,17 @@ LOBE_FN lobe_rough_dielectric lobe_rough_dielectric_make(lobe_real alpha_x, lobe
 	return p;
 }
 
+/* The two, as far as the build does not know them (config.h). */
+LOBE_FN int lobe_rough_dielectric_delta(lobe_rough_dielectric p)
+{
+	return LOBE_CHOSEN(p.delta, LOBE_ONLY_DELTA) != 0u;
+}
+
+LOBE_FN int lobe_rough_dielectric_dense(lobe_rough_dielectric p)
+{
+	return LOBE_CHOSEN(p.dense, LOBE_ONLY_DENSE) != 0u;
+}
+
 /* Most glass is neither delta nor dense: loops over one material leave out what only the rest needs (src/rows.c). */
 LOBE_FN int lobe_rough_dielectric_is_plain(lobe_rough_dielectric p) { return (p.delta | p.dense) == 0u; }
 
@@ -145,12 +156,12 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_make(lobe_uint n
 	/* The facet looks up. Of a refraction the half vector knows both cosines. Of a reflection its length gives all:
 	 * c = m2/2, s^2 = m2 (1 - m2/4) and g^2 = c^2 + k m2; of dense glass from these, so that a rounding of m2 is
 	 * one of the angle and no more, and s^2 >= 0. */
-	const lobe_real m2 = p.dense != 0u ? lobe_min(h2, LOBE_R(4.0)) : h2;
+	const lobe_real m2 = lobe_rough_dielectric_dense(p) ? lobe_min(h2, LOBE_R(4.0)) : h2;
 	const lobe_real half_m2 = LOBE_R(0.5) * m2;
 	const lobe_real minus_s2 = lobe_fma(LOBE_R(0.25), m2, -one);
 	const lobe_real dense_g2 = lobe_fma(LOBE_R(0.25), m2, v.side.g2_first) + v.side.g2_second;
 	const lobe_real plain_g2 = lobe_fma(LOBE_R(0.25), m2, v.side.at.k);
-	const lobe_real reflects_g = lobe_fresnel_g(m2 * (p.dense != 0u ? dense_g2 : plain_g2));
+	const lobe_real reflects_g = lobe_fresnel_g(m2 * (lobe_rough_dielectric_dense(p) ? dense_g2 : plain_g2));
 	const lobe_real refracts_oh = lobe_times_sign(lobe_dot(v.o, h), h.z);
 	const lobe_real refracts_g = lobe_times_sign(v.side.at.eta * -lobe_dot(i, h), h.z);
 	const lobe_real c = reflects ? half_m2 : refracts_oh;
@@ -159,7 +170,7 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_make(lobe_uint n
 	const lobe_real g = reflects ? reflects_g : refracts_g;
 	const lobe_real dense_x = half_m2 * (g + (minus_s2 + minus_s2));
 	const lobe_real plain_x = lobe_fma(c, c + g, -m2);
-	const lobe_real x = p.dense != 0u ? dense_x : plain_x;
+	const lobe_real x = lobe_rough_dielectric_dense(p) ? dense_x : plain_x;
 	const lobe_real two_sigma = v.o.z + v.t_o;
 	const lobe_facet_density d =
 		lobe_ndf_density_over(ndf, lobe_stretch_facet_squares(p.stretch, squares), two_sigma);
@@ -178,7 +189,7 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_of(lobe_uint ndf
 {
 	const int reflects = i.z > LOBE_R(0.0);
 	lobe_rough_dielectric_facet f = lobe_rough_dielectric_facet_make(ndf, p, v, i, reflects);
-	f.seen = (reflects | (p.delta == 0u)) ? f.seen : LOBE_R(0.0);
+	f.seen = (reflects | !lobe_rough_dielectric_delta(p)) ? f.seen : LOBE_R(0.0);
 	return f;
 }
 
@@ -268,9 +279,9 @@ LOBE_FN lobe_rough_dielectric_choice lobe_rough_dielectric_choose(lobe_uint ndf,
 	const lobe_real c2 = s.c * s.c, m2 = lobe_dot(s.m, s.m);
 	const lobe_vec3 across = lobe_vec3_fma(-s.c, v.o, s.m);
 	/* From within dense glass the sine decides, and it is small. */
-	const lobe_real s2 = p.dense != 0u ? lobe_dot(across, across) : m2 - c2;
+	const lobe_real s2 = lobe_rough_dielectric_dense(p) ? lobe_dot(across, across) : m2 - c2;
 	const lobe_real dense_g2 = lobe_fma(v.side.at.eta2, c2, v.side.at.k * s2);
-	const lobe_real g = lobe_fresnel_g(p.dense != 0u ? dense_g2 : lobe_fma(v.side.at.k, m2, c2));
+	const lobe_real g = lobe_fresnel_g(lobe_rough_dielectric_dense(p) ? dense_g2 : lobe_fma(v.side.at.k, m2, c2));
 	s.at = lobe_fresnel_interface_at(v.side.at, s.c, g, lobe_fma(s.c, g, -s2), m2);
 	s.r = lobe_fresnel_amplitudes_make(s.at);
 	return s;
@@ -285,7 +296,7 @@ LOBE_FN lobe_vec3 lobe_rough_dielectric_leave(lobe_rough_dielectric p, lobe_roug
 	const lobe_real excess =
 		lobe_fma(v.o.x, v.o.x, lobe_fma(v.o.y, v.o.y, lobe_fma(v.o.z, v.o.z, -LOBE_R(1.0))));
 	const lobe_real dense_scale = lobe_fma(v.side.step, lobe_dot(bent, bent), v.side.start);
-	const lobe_real scale = p.dense != 0u ? dense_scale : lobe_fma(v.side.step, excess, -v.side.inv_e);
+	const lobe_real scale = lobe_rough_dielectric_dense(p) ? dense_scale : lobe_fma(v.side.step, excess, -v.side.inv_e);
 	const lobe_vec3 mirrored =
 		lobe_vec3_fma((s.c + s.c) / s.at.m2, s.m, lobe_vec3_make(-v.o.x, -v.o.y, -v.o.z));
 	return lobe_vec3_select(reflects, mirrored, lobe_vec3_scale(bent, scale));
@@ -298,7 +309,7 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_again(lobe_uint 
 								      lobe_rough_dielectric_choice s, lobe_vec3 i,
 								      int reflects, lobe_real delta_density)
 {
-	const int straight = !reflects & (p.delta != 0u);
+	const int straight = lobe_rough_dielectric_delta(p) & !reflects;
 	lobe_rough_dielectric_facet m = lobe_rough_dielectric_facet_make(ndf, p, v, i, reflects);
 	m.at = lobe_fresnel_interface_select(straight, s.at, m.at);
 	m.density = straight ? delta_density : m.density;
@@ -310,14 +321,14 @@ LOBE_FN lobe_rough_dielectric_facet lobe_rough_dielectric_facet_again(lobe_uint 
 LOBE_FN lobe_real lobe_rough_dielectric_sample_weight(lobe_uint ndf, lobe_rough_dielectric p,
 						      lobe_rough_dielectric_view v, lobe_vec3 i, int reflects)
 {
-	const int straight = !reflects & (p.delta != 0u);
+	const int straight = lobe_rough_dielectric_delta(p) & !reflects;
 	return straight ? v.side.scale : lobe_rough_dielectric_weight(ndf, p, v, i, reflects);
 }
 
 LOBE_FN lobe_uint lobe_rough_dielectric_event(lobe_rough_dielectric p, int reflects)
 {
 	const lobe_uint refracts =
-		p.delta != 0u ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY;
+		lobe_rough_dielectric_delta(p) ? LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA : LOBE_EVENT_TRANSMIT | LOBE_EVENT_GLOSSY;
 	return reflects ? LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY : refracts;
 }
 

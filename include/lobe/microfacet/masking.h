@@ -154,7 +154,7 @@ LOBE_FN_APART lobe_real lobe_masking_g2_over_cos(lobe_microsurface s, lobe_seen 
 	const lobe_uint masking = LOBE_CHOSEN(s.masking, LOBE_ONLY_MASKING);
 	if (!(i.z > zero))
 		return zero;
-	if (masking == LOBE_MASKING_SMITH || masking == LOBE_MASKING_SMITH_RATIONAL)
+	if ((masking == LOBE_MASKING_SMITH) | (masking == LOBE_MASKING_SMITH_RATIONAL))
 		return across ? lobe_masking_smith_across(s.across, o, i) : lobe_masking_smith(s.joint, o, i);
 	if (!(o.z > zero))
 		return zero;

@@ -16,15 +16,21 @@
 #include "beckmann.h"
 #endif
 
+#if LOBE_HAS_NDF_GGX
+#define LOBE_NDF_IS_BECKMANN(ndf) ((ndf) == LOBE_NDF_BECKMANN)
+#else
+#define LOBE_NDF_IS_BECKMANN(ndf) 1
+#endif
+
 /* lobe_X_density(h) of facet.h with inv over s, which shares its division; from the squares of h. */
 LOBE_FN lobe_facet_density lobe_ndf_density_over(lobe_uint ndf, lobe_vec3 h2, lobe_real s)
 {
+	(void)ndf;
 #if LOBE_HAS_NDF_BECKMANN
-	if ((ndf == LOBE_NDF_BECKMANN) | !LOBE_HAS_NDF_GGX)
+	if (LOBE_NDF_IS_BECKMANN(ndf))
 		return lobe_beckmann_density_over(h2, s);
 #endif
 #if LOBE_HAS_NDF_GGX
-	(void)ndf;
 	return lobe_ggx_density_over(h2, s);
 #endif
 }
@@ -32,12 +38,12 @@ LOBE_FN lobe_facet_density lobe_ndf_density_over(lobe_uint ndf, lobe_vec3 h2, lo
 /* t(v) of facet.h. */
 LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 {
+	(void)ndf;
 #if LOBE_HAS_NDF_BECKMANN
-	if ((ndf == LOBE_NDF_BECKMANN) | !LOBE_HAS_NDF_GGX)
+	if (LOBE_NDF_IS_BECKMANN(ndf))
 		return lobe_beckmann_t(v);
 #endif
 #if LOBE_HAS_NDF_GGX
-	(void)ndf;
 	return lobe_ggx_t(v);
 #endif
 }
@@ -45,13 +51,13 @@ LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 /* A normal visible from v, v.z > 0; t: lobe_ndf_t(ndf, v). */
 LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
+	(void)ndf;
 	(void)t;
 #if LOBE_HAS_NDF_BECKMANN
-	if ((ndf == LOBE_NDF_BECKMANN) | !LOBE_HAS_NDF_GGX)
+	if (LOBE_NDF_IS_BECKMANN(ndf))
 		return lobe_beckmann_visible_above(v, u);
 #endif
 #if LOBE_HAS_NDF_GGX
-	(void)ndf;
 	return lobe_ggx_visible_above(v, t, u);
 #endif
 }
