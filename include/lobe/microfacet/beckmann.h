@@ -27,8 +27,17 @@
 #define LOBE_SQRT_PI     LOBE_R(1.77245385090551602730)
 #define LOBE_INV_SQRT_PI LOBE_R(0.564189583547756286948)
 
-/* pi D = exp(-tan^2)/cos^4, inv over s; 0 where the exponential is below 1.6e-38. h2: the squares of h. Infinite or NaN
- * for h.z = 0. */
+/* pi D = exp(-tan^2)/cos^4. Infinite or NaN for h.z = 0. */
+LOBE_FN lobe_facet_density lobe_beckmann_density(lobe_vec3 h)
+{
+	const lobe_vec3 h2 = lobe_vec3_squares(h);
+	lobe_facet_density d;
+	d.inv = LOBE_R(1.0) / h2.z;
+	d.factor = lobe_exp(-(h2.x + h2.y) * d.inv);
+	return d;
+}
+
+/* The same with inv over s, from the squares of h; 0 where the exponential is below 1.6e-38. */
 LOBE_FN lobe_facet_density lobe_beckmann_density_over(lobe_vec3 h2, lobe_real s)
 {
 	lobe_facet_density d;
@@ -36,11 +45,6 @@ LOBE_FN lobe_facet_density lobe_beckmann_density_over(lobe_vec3 h2, lobe_real s)
 	d.inv = inv * (LOBE_R(1.0) / s); /* apart, as the exponential is long enough without waiting for s */
 	d.factor = lobe_exp_or_zero(-(h2.x + h2.y) * inv);
 	return d;
-}
-
-LOBE_FN lobe_facet_density lobe_beckmann_density(lobe_vec3 h)
-{
-	return lobe_beckmann_density_over(lobe_vec3_squares(h), LOBE_R(1.0));
 }
 
 LOBE_FN lobe_real lobe_beckmann_tail(lobe_real t2) { return lobe_exp(-t2); }
