@@ -42,6 +42,7 @@ enum {
 #define LOBE_NEAR(a)       float a[LOBE_ROOM];
 #define LOBE_NEAR_EVENT(a) uint a[LOBE_ROOM];
 #define LOBE_FETCH(a)      a[to] = far_##a[base + j];
+#define LOBE_FILL(a)       a[e] = a[begin[k]];
 #define LOBE_PUT(a)        far_##a[base + j] = a[rank[j]];
 #define LOBE_ZERO(a)       a[e] = 0;
 
@@ -122,8 +123,10 @@ __kernel LOBE_WIDE void LOBE_OF_VERB(lobe_kernel_mixed_, LOBE_VERB)(
 			LOBE_OF_VERB(LOBE_INPUTS_, LOBE_VERB)(LOBE_FETCH)
 		}
 		for (uint k = 0u; k < LOBE_NUMBERS; k++)
-			for (uint e = next[k]; e < begin[k + 1u]; e++)
+			for (uint e = next[k]; e < begin[k + 1u]; e++) {
 				place[e] = place[begin[k]];
+				LOBE_OF_VERB(LOBE_INPUTS_, LOBE_VERB)(LOBE_FILL)
+			}
 #define LOBE_X(NAME, lobe, kind)        LOBE_MIXED_LOBE_OF(LOBE_VERB, lobe, plain)
 #define LOBE_X_TABLED(NAME, lobe, kind) LOBE_MIXED_LOBE_OF(LOBE_VERB, lobe, tabled)
 #include "../include/lobe/lobes/lobes.def"

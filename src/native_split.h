@@ -9,7 +9,7 @@ enum {
 	/* Elements of a block: the fewer, the more of them stay in the first-level cache, and the more, the less it counts
 	 * what a loop does before its first element. So many for each material, from the least to the most, which is
 	 * also what those have that are split by lobe. */
-	LOBE_NATIVE_SPLIT_EACH = 128,
+	LOBE_NATIVE_SPLIT_EACH = 96,
 	LOBE_NATIVE_SPLIT_MIN = 512,
 	LOBE_NATIVE_SPLIT_MAX = 2048,
 	LOBE_NATIVE_SPLIT_VECTOR = 16, /* each key's elements begin at a multiple of this */
@@ -37,7 +37,7 @@ typedef struct {
 	uint8_t place[LOBE_NATIVE_SPLIT_MAX] LOBE_NATIVE_ALIGNED; /* 16 times its run, plus its place there */
 	/* The elements of each run, as places in the tile; room to store four runs at the last. */
 	uint8_t from[LOBE_NATIVE_SPLIT_TILES][LOBE_NATIVE_SPLIT_RUNS + 4][LOBE_NATIVE_SPLIT_VECTOR] LOBE_NATIVE_ALIGNED;
-	uint16_t at[LOBE_NATIVE_SPLIT_TILES][LOBE_NATIVE_SPLIT_RUNS]; /* where it begins among the sorted */
+	uint16_t at[LOBE_NATIVE_SPLIT_TILES][LOBE_NATIVE_SPLIT_RUNS + 4]; /* where it begins among the sorted */
 	uint8_t runs[LOBE_NATIVE_SPLIT_TILES];
 } lobe_native_tiles;
 

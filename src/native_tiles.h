@@ -67,20 +67,20 @@ static void sort_tiles(lobe_native_tiles *t, uint32_t *begin, uint32_t *count, c
 		__m512i place = _mm512_setzero_si512();
 		uint32_t runs = 0;
 		for (uint32_t k = 0; k < keys; k++) {
+			/* Its up to four runs are written, however many it has: the next key's overwrite the rest. */
 			const __mmask64 m = of_key(t, i, k, n);
 			const uint32_t found = (uint32_t)_mm_popcnt_u64(m);
+			const uint64_t at = next[k] * UINT64_C(0x0001000100010001) + UINT64_C(0x0030002000100000);
 			const __m512i from_run = _mm512_set1_epi8((char)(runs * RUN));
-			if (!found)
-				continue;
 			place = _mm512_mask_expand_epi8(place, m, _mm512_add_epi8(number, from_run));
 			_mm512_storeu_si512(t->from[i][runs], _mm512_maskz_compress_epi8(m, number));
-			for (uint32_t r = 0; r < found; r += RUN)
-				t->at[i][runs++] = (uint16_t)(next[k] + r);
+			memcpy(&t->at[i][runs], &at, sizeof at);
 			next[k] += found;
+			runs += (found + RUN - 1) / RUN;
 		}
 		/* An even number, or the switches would be foreseen less often. */
-		if (runs % 2)
-			t->at[i][runs++] = (uint16_t)behind;
+		t->at[i][runs] = (uint16_t)behind;
+		runs += runs % 2;
 		t->runs[i] = (uint8_t)runs;
 		_mm512_store_si512(t->place + i * TILE, place);
 	}
