@@ -176,10 +176,19 @@ static int ask(const stability_case *c, stability_verb verb, stability_question 
 	return 1;
 }
 
+/* Facets turn what they refract by so little where indices are alike that its density is that of facets times 1/(1 -
+ * eta)^2, seen from below, or eta^2 of that (Walter et al. 2007, eq. 17, along the normal). */
+static double concentration(double eta)
+{
+	const double spread = fmax(fabs(eta - 1.0), 0x1p-24);
+	return fmax(1.0, fmax(1.0, eta * eta) / (spread * spread));
+}
+
 /* 1/(pi |det A|), where the surface has widths; Phong's distribution before that has (n + 2)/(2 pi). */
 static double peak_of(const stability_case *c)
 {
-	const double *p = c->parameter, shape = p[8] == LOBE_NDF_PHONG ? 1.0 + 0.5 * p[9] : 1.0;
+	const double *p = c->parameter;
+	double shape = p[8] == LOBE_NDF_PHONG ? 1.0 + 0.5 * p[9] : 1.0;
 	switch (c->kind) {
 	case LOBE_KIND_LAMBERT:
 	case LOBE_KIND_MIRROR:
@@ -187,8 +196,13 @@ static double peak_of(const stability_case *c)
 	case LOBE_KIND_SMOOTH_DIELECTRIC:
 	case LOBE_KIND_THIN_DIELECTRIC:
 		return 1.0;
-	case LOBE_KIND_MICROFACET_CONDUCTOR:
+	case LOBE_KIND_GGX_DIELECTRIC:
+	case LOBE_KIND_BECKMANN_DIELECTRIC:
+		return concentration(p[2]) * fmax(1.0, 0.318309886183790672 / (p[0] * p[1]));
 	case LOBE_KIND_MICROFACET_DIELECTRIC:
+		shape *= concentration(p[2]);
+		/* fall through */
+	case LOBE_KIND_MICROFACET_CONDUCTOR:
 	case LOBE_KIND_MICROFACET_DIFFUSE:
 		return fmax(1.0, shape * 0.318309886183790672 / fabs(p[0] * p[1] - p[11] * p[12]));
 	default:
