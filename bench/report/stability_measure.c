@@ -184,11 +184,12 @@ static double concentration(double eta)
 	return fmax(1.0, fmax(1.0, eta * eta) / (spread * spread));
 }
 
-/* 1/(pi |det A|), where the surface has widths; Phong's distribution before that has (n + 2)/(2 pi). */
-static double peak_of(const stability_case *c)
+/* 1/(pi |det A|), where the surface has widths; Phong's distribution before that has (n + 2)/(2 pi). refracts: of the
+ * density of a refraction. */
+static double peak_of(const stability_case *c, int refracts)
 {
-	const double *p = c->parameter;
-	double shape = p[8] == LOBE_NDF_PHONG ? 1.0 + 0.5 * p[9] : 1.0;
+	const double *p = c->parameter, shape = p[8] == LOBE_NDF_PHONG ? 1.0 + 0.5 * p[9] : 1.0;
+	const double turned = refracts ? concentration(p[2]) : 1.0;
 	switch (c->kind) {
 	case LOBE_KIND_LAMBERT:
 	case LOBE_KIND_MIRROR:
@@ -198,10 +199,9 @@ static double peak_of(const stability_case *c)
 		return 1.0;
 	case LOBE_KIND_GGX_DIELECTRIC:
 	case LOBE_KIND_BECKMANN_DIELECTRIC:
-		return concentration(p[2]) * fmax(1.0, 0.318309886183790672 / (p[0] * p[1]));
+		return turned * fmax(1.0, 0.318309886183790672 / (p[0] * p[1]));
 	case LOBE_KIND_MICROFACET_DIELECTRIC:
-		shape *= concentration(p[2]);
-		/* fall through */
+		return turned * fmax(1.0, shape * 0.318309886183790672 / fabs(p[0] * p[1] - p[11] * p[12]));
 	case LOBE_KIND_MICROFACET_CONDUCTOR:
 	case LOBE_KIND_MICROFACET_DIFFUSE:
 		return fmax(1.0, shape * 0.318309886183790672 / fabs(p[0] * p[1] - p[11] * p[12]));
@@ -250,7 +250,7 @@ stability_result stability_measure_of(stability_lobe lobe, const stability_case 
 	r.floor = fmax((double)sqrtl(directions + parameters), 0.5 * r.ulp);
 	r.floor_directions = (double)sqrtl(directions);
 	r.floor_of_one = r.floor;
-	r.peak = peak_of(c);
+	r.peak = peak_of(c, verb <= STABILITY_PDF && x[2] * x[5] < 0.0L);
 	if (r.error > r.floor) {
 		const stability_of_one one = stability_of_one_make(c, q, x);
 		r.of_one = one.cause;
