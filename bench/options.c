@@ -17,12 +17,12 @@ static const char help[] =
 	"  --verb NAME     this verb only: eval, pdf, eval+pdf, sample, sample_wi (without weight and pdf)\n"
 	"  --device NAME   this device only, e.g. native:1, native, opencl:0\n"
 	"  --threads N     the native device with so many threads only\n"
-	"  --n N           elements of a batch (default 4194304 and, in the column \"in cache\", 16384)\n"
+	"  --n N           elements of a batch (default %d and, in the column \"in cache\", %d)\n"
 	"  --runs N        timed runs of each (default 11), 1 to 1000\n"
 	"  --only TABLE    this table only: throughput, roofline, hand, layout, scaling, build or pruning\n"
 	"  --csv FILE      instead of out/bench/throughput.csv; those of the other tables lie beside it\n"
 	"  --json FILE     the table of throughput as JSON as well, - for the standard output\n"
-	"  --quick         a look that is no measurement: 262144 elements, 3 runs\n"
+	"  --quick         a look that is no measurement: %d elements, 3 runs\n"
 	"  --help          this\n";
 
 static int bad(const char *option, const char *value, const char *what)
@@ -117,7 +117,7 @@ int bench_options_parse(bench_options *o, int argc, char **argv)
 	o->throughput = o->build = o->pruning = o->scaling = o->layout = o->hand = o->roofline = 1;
 	for (int i = 1; i < argc; i++) {
 		if (strcmp(argv[i], "--help") == 0) {
-			fputs(help, stdout);
+			printf(help, BENCH_ELEMENTS, BENCH_IN_CACHE, BENCH_QUICK);
 			return 1;
 		}
 		if (strcmp(argv[i], "--quick") == 0) {
@@ -134,7 +134,7 @@ int bench_options_parse(bench_options *o, int argc, char **argv)
 		i++;
 	}
 	if (o->quick && !o->n)
-		o->n = (size_t)1 << 18;
+		o->n = BENCH_QUICK;
 	if (!o->runs)
 		o->runs = o->quick ? 3 : 11;
 	return 0;

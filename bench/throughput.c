@@ -26,8 +26,6 @@
 #include "scaling.h"
 #include "targets.h"
 
-enum { IN_CACHE = 16384 /* elements: at most 56 bytes each, they fit into the second-level caches of two cores */ };
-
 /* --- the table of throughput -------------------------------------------------------------------------------------- */
 
 static void print_row(const bench_plan *plan, const bench_results *results, const bench_result *r)
@@ -106,10 +104,10 @@ static bench_plan make_plan(const bench_options *o, bench_device *devices, int c
 	memset(&plan, 0, sizeof plan);
 	plan.lobe = o->lobe;
 	plan.verb = o->verb;
-	plan.sizes[plan.size_count++] = o->n ? o->n : (size_t)1 << (BENCH_LOBES > 6 ? 21 : 22);
+	plan.sizes[plan.size_count++] = o->n ? o->n : BENCH_ELEMENTS;
 	if (!o->n || o->quick)
-		plan.sizes[plan.size_count++] = IN_CACHE;
-	if (plan.sizes[0] == IN_CACHE)
+		plan.sizes[plan.size_count++] = BENCH_IN_CACHE;
+	if (plan.sizes[0] == BENCH_IN_CACHE)
 		plan.size_count = 1;
 	plan.least = o->n ? o->n : (size_t)1 << 20; /* 40 MB and more for the larger verbs: still far from the caches */
 	plan.runs = o->runs;
