@@ -12,105 +12,78 @@
 /* A material of each lobe, material_<lobe>: all that its features cost, anisotropy above all. The table below names one
  * for each line of lobes.def, so a lobe without one does not compile. */
 
-#if LOBE_HAS_LAMBERT
 static lobe_bsdf material_lambert(void)
 {
 	return lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.8f, 0.5f, 0.2f)));
 }
-#endif
 
-#if LOBE_HAS_GGX_CONDUCTOR
 static lobe_bsdf material_ggx_conductor(void)
 {
 	return lobe_bsdf_from_ggx_conductor(
 		lobe_ggx_conductor_make(0.3f, 0.2f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
 }
-#endif
 
-#if LOBE_HAS_GGX_DIELECTRIC
 static lobe_bsdf material_ggx_dielectric(void)
 {
 	return lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.2f, 1.5f));
 }
-#endif
 
-#if LOBE_HAS_BECKMANN_CONDUCTOR
 static lobe_bsdf material_beckmann_conductor(void)
 {
 	return lobe_bsdf_from_beckmann_conductor(lobe_beckmann_conductor_make(
 		0.3f, 0.2f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
 }
-#endif
 
-#if LOBE_HAS_BECKMANN_DIELECTRIC
 static lobe_bsdf material_beckmann_dielectric(void)
 {
 	return lobe_bsdf_from_beckmann_dielectric(lobe_beckmann_dielectric_make(0.3f, 0.2f, 1.5f));
 }
-#endif
 
-#if LOBE_HAS_GGX_SCHLICK
 static lobe_bsdf material_ggx_schlick(void)
 {
 	return lobe_bsdf_from_ggx_schlick(
 		lobe_ggx_schlick_make(0.3f, 0.2f, lobe_rgb_make(0.9f, 0.6f, 0.3f), lobe_rgb_make(1.0f, 1.0f, 1.0f)));
 }
-#endif
 
-#if LOBE_HAS_MIRROR
 static lobe_bsdf material_mirror(void)
 {
 	return lobe_bsdf_from_mirror(lobe_mirror_make(lobe_rgb_make(0.8f, 0.85f, 0.9f)));
 }
-#endif
 
-#if LOBE_HAS_SMOOTH_CONDUCTOR
 static lobe_bsdf material_smooth_conductor(void)
 {
 	return lobe_bsdf_from_smooth_conductor(
 		lobe_smooth_conductor_make(lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
 }
-#endif
 
-#if LOBE_HAS_SMOOTH_DIELECTRIC
 static lobe_bsdf material_smooth_dielectric(void)
 {
 	return lobe_bsdf_from_smooth_dielectric(lobe_smooth_dielectric_make(1.5f));
 }
-#endif
 
-#if LOBE_HAS_THIN_DIELECTRIC
 static lobe_bsdf material_thin_dielectric(void)
 {
 	return lobe_bsdf_from_thin_dielectric(lobe_thin_dielectric_make(1.5f));
 }
-#endif
 
-#if LOBE_HAS_IRIDESCENT_CONDUCTOR
 static lobe_bsdf material_iridescent_conductor(void)
 {
 	return lobe_bsdf_from_iridescent_conductor(lobe_iridescent_conductor_make(
 		0.3f, 0.2f, 400.0f, 1.8f, lobe_metal_eta(LOBE_METAL_IRON), lobe_metal_k(LOBE_METAL_IRON)));
 }
-#endif
 
-#if LOBE_HAS_IRIDESCENT_DIELECTRIC
 static lobe_bsdf material_iridescent_dielectric(void)
 {
 	return lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.3f, 0.2f, 400.0f, 1.38f, 1.5f));
 }
-#endif
 
 /* What ggx_conductor and ggx_dielectric do, chosen at run time. */
-#if LOBE_HAS_MICROFACET_CONDUCTOR || LOBE_HAS_MICROFACET_DIELECTRIC || LOBE_HAS_MICROFACET_DIFFUSE
 static lobe_microsurface microsurface(void)
 {
 	return lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX),
 				      lobe_linear_make(0.3f, 0.0f, 0.0f, 0.2f, 0.0f, 0.0f));
 }
-#endif
 
-#if LOBE_HAS_MICROFACET_CONDUCTOR
 static lobe_bsdf material_microfacet_conductor(void)
 {
 	const lobe_fresnel_model gold =
@@ -118,23 +91,18 @@ static lobe_bsdf material_microfacet_conductor(void)
 	return lobe_bsdf_from_microfacet_conductor(
 		lobe_microfacet_conductor_make(microsurface(), gold, LOBE_STRATEGY_VISIBLE));
 }
-#endif
 
-#if LOBE_HAS_MICROFACET_DIELECTRIC
 static lobe_bsdf material_microfacet_dielectric(void)
 {
 	return lobe_bsdf_from_microfacet_dielectric(lobe_microfacet_dielectric_make(
 		microsurface(), lobe_fresnel_model_dielectric(), 1.5f, LOBE_STRATEGY_VISIBLE));
 }
-#endif
 
-#if LOBE_HAS_MICROFACET_DIFFUSE
 static lobe_bsdf material_microfacet_diffuse(void)
 {
 	return lobe_bsdf_from_microfacet_diffuse(
 		lobe_microfacet_diffuse_make(microsurface(), lobe_rgb_make(0.8f, 0.5f, 0.2f)));
 }
-#endif
 
 static lobe_bsdf material_choosing_otherwise(void)
 {
@@ -157,7 +125,7 @@ static const struct {
 
 const char *bench_lobe_name(int lobe)
 {
-	return lobe < BENCH_LOBES          ? lobes[lobe].name
+	return lobe < BENCH_LOBES         ? lobes[lobe].name
 	       : lobe == BENCH_OPEN       ? "open choices"
 	       : lobe == BENCH_OPEN_GLASS ? "open glass"
 					  : "all";
@@ -172,8 +140,7 @@ lobe_status bench_scene_create(lobe_scene **out, lobe_device *device, int lobe)
 		static const float eta[] = {1.0f, 2.5f};
 		material[0] = bench_lobe_material(BENCH_LOBE_GGX_DIELECTRIC);
 		for (int i = 0; i < 2; i++)
-			material[1 + i] =
-				lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.2f, eta[i]));
+			material[1 + i] = lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.2f, eta[i]));
 		return lobe_scene_create(out, device, material, 3);
 	}
 	if (lobe == BENCH_OPEN) {
@@ -233,7 +200,8 @@ int bench_devices_open(bench_device *devices, const char *only)
 	size_t opencl = 0;
 	/* Without it PoCL's threads wander, and often share a processor for as long as a batch takes. */
 	if (setenv("POCL_AFFINITY", "1", 0) == 0)
-		printf("setting    POCL_AFFINITY=%s, where PoCL is the OpenCL: each of its threads stays on a processor\n",
+		printf("setting    POCL_AFFINITY=%s, where PoCL is the OpenCL: each of its threads stays on a "
+		       "processor\n",
 		       getenv("POCL_AFFINITY"));
 	if (only) {
 		count = open_one(&devices[0], only);
