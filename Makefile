@@ -259,7 +259,8 @@ test-long:
 vectors: $(B)/tests/tool_vectors
 	$(B)/tests/tool_vectors tests/vectors
 
-THROUGHPUT := $(filter-out bench/strategies.c bench/hand_rows.c bench/peak.c,$(wildcard bench/*.c))
+THROUGHPUT := $(filter-out bench/strategies.c bench/hand_rows.c bench/peak.c,$(wildcard bench/*.c)) \
+	examples/common/processors.c
 BENCH_LOOPS := $(foreach i,$(ISAS),$(B)/bench/hand_rows_$(i).o $(B)/bench/peak_$(i).o)
 define BENCH_RULE
 $(B)/bench/%_$(1).o: bench/%.c $(HEADERS) $(wildcard bench/*.h) | $(B)/bench
@@ -287,7 +288,7 @@ bench:
 	@$(B)/bench/strategies
 	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
 
-FIGURES := $(wildcard bench/figures/*.c) bench/machine.c bench/scenes.c
+FIGURES := $(wildcard bench/figures/*.c) bench/machine.c examples/common/processors.c
 $(B)/bench/figures: $(FIGURES) $(wildcard bench/*.h bench/figures/*.h) $(B)/liblobe.a | $(B)/bench
 	@echo "  link  $@"
 	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(FIGURES) $(B)/liblobe.a -o $@ $(LIBS)
@@ -304,7 +305,7 @@ figures:
 # for tests of the studies. LOBE_REPORT_PROBES names light probes; empty, there are none, and none are fetched.
 REPORT_SOURCES := $(filter-out bench/report/main.c,$(wildcard bench/report/*.c))
 REPORT_COMMON := $(filter-out examples/common/progress.c,$(wildcard examples/common/*.c)) examples/gallery/light.c \
-	bench/machine.c bench/scenes.c bench/timing.c
+	bench/machine.c bench/timing.c
 REPORT_OBJECTS := $(patsubst %.c,$(B)/report/%.o,$(REPORT_SOURCES) $(REPORT_COMMON))
 REPORT_LIBS := $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a -lOpenEXRCore -lOpenEXR -lpng -lquadmath $(TEST_LIBS)
 REPORT_CFLAGS := $(TEST_CFLAGS) $(NATIVE) -Iexamples/common -Iexamples/gallery -Ibench/report $(shell pkg-config --cflags OpenEXR libpng 2>/dev/null)

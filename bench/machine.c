@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "../examples/common/processors.h"
 #include "machine.h"
 
 #if defined(__clang__)
@@ -74,7 +75,7 @@ void bench_print_machine(FILE *to)
 	const time_t now = time(NULL);
 	const int known = uname(&system) >= 0;
 	bench_processor_name(text, sizeof text);
-	fprintf(to, "processor  %s, %zu online\n", text, bench_processors());
+	fprintf(to, "processor  %s, %zu for this process\n", text, processor_count());
 	if (known)
 		fprintf(to, "system     %s %s %s\n", system.sysname, system.release, system.machine);
 	fprintf(to, "compiler   %s\n", COMPILER);

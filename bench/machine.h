@@ -5,8 +5,6 @@
 
 #include <stdio.h>
 
-#include "scenes.h"
-
 /* Processor, compiler, date, commit, and how busy the machine already is. */
 void bench_print_machine(FILE *to);
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../examples/common/processors.h"
 #include "machine.h"
 #include "measure.h"
 
@@ -97,7 +98,7 @@ static double median_ratio(const double *rate, const double *base, double *ratio
 static int native_device(const bench_plan *plan)
 {
 	for (int d = 0; d < plan->device_count; d++)
-		if (strncmp(plan->devices[d].label, "native", 6) == 0 && plan->devices[d].threads == bench_processors())
+		if (strncmp(plan->devices[d].label, "native", 6) == 0 && plan->devices[d].threads == processor_count())
 			return d;
 	return -1;
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../examples/common/processors.h"
 #include "machine.h"
 #include "race.h"
 
@@ -29,7 +30,7 @@ static int open_team(team *t, const char *label, int lobe)
 /* native:1, 2, 4, ... and all processors; then OpenCL. */
 static int open_teams(team *teams, int lobe)
 {
-	const size_t all = bench_processors();
+	const size_t all = processor_count();
 	int count = 0;
 	for (size_t threads = 1; count < TEAMS_MAX - 2; threads = 2 * threads < all ? 2 * threads : all) {
 		char label[32];

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "../examples/common/processors.h"
 #include "scenes.h"
 
 /* --- lobes -------------------------------------------------------------------------------------------------------- */
@@ -167,12 +167,6 @@ int bench_verb_samples(int verb) { return verb >= BENCH_SAMPLE; }
 
 /* --- devices ------------------------------------------------------------------------------------------------------ */
 
-size_t bench_processors(void)
-{
-	const long online = sysconf(_SC_NPROCESSORS_ONLN);
-	return online < 1 ? 1 : (size_t)online;
-}
-
 int bench_is_opencl(const bench_device *device) { return strncmp(device->label, "opencl", 6) == 0; }
 
 static int open_one(bench_device *d, const char *label)
@@ -181,7 +175,7 @@ static int open_one(bench_device *d, const char *label)
 	if (lobe_device_open(&d->device, label) != LOBE_OK)
 		return 0;
 	snprintf(d->label, sizeof d->label, "%s", label);
-	d->threads = number ? (size_t)strtoul(number, NULL, 10) : bench_processors();
+	d->threads = number ? (size_t)strtoul(number, NULL, 10) : processor_count();
 	printf("device     %-10s %s\n", label, lobe_device_name(d->device));
 	return 1;
 }
@@ -210,7 +204,7 @@ int bench_devices_open(bench_device *devices, const char *only)
 		return count;
 	}
 	count += open_or_skip(&devices[count], "native:1");
-	if (bench_processors() > 1)
+	if (processor_count() > 1)
 		count += open_or_skip(&devices[count], "native");
 	/* Where there is none, the first says why. */
 	if (lobe_device_count("opencl", &opencl) != LOBE_OK || opencl == 0)

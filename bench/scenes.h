@@ -42,11 +42,8 @@ enum { BENCH_DEVICES_MAX = 16 };
 typedef struct {
 	char label[32]; /* as lobe_device_open takes it */
 	lobe_device *device;
-	size_t threads; /* of the copy that it is compared with: a native device's own, every processor for OpenCL */
+	size_t threads; /* of the copy that it is compared with: a native device's own, processor_count() for OpenCL */
 } bench_device;
-
-/* Processors online. */
-size_t bench_processors(void);
 
 int bench_is_opencl(const bench_device *device);
 

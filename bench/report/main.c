@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../scenes.h"
 #include "../timing.h"
 #include "page.h"
+#include "processors.h"
 #include "units.h"
 
 static int usage(void)
@@ -32,7 +32,7 @@ static int is_section(const char *name)
 int main(int argc, char **argv)
 {
 	const char *only = NULL;
-	size_t threads = bench_processors();
+	size_t threads = processor_count();
 	int quick = 0;
 	const double start = bench_now();
 	for (int i = 1; i < argc; i++) {

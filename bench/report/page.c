@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "../machine.h"
-#include "../scenes.h"
 #include "lobe/lobe.h"
 #include "page.h"
+#include "processors.h"
 #include "units.h"
 
 void report_finding(report_page *page, const char *format, ...)
@@ -124,7 +124,7 @@ static void write_readme(const report_page *page, int quick)
 	if (!bench_command("git describe --always --dirty --abbrev=12 2>/dev/null", commit, sizeof commit))
 		snprintf(commit, sizeof commit, "unknown");
 	fprintf(to, "Measured by `make report%s` on %s, %zu processors, at commit %s.\n\n%s", quick ? " QUICK=1" : "",
-		processor, bench_processors(), commit, page->readme.text ? page->readme.text : "");
+		processor, processor_count(), commit, page->readme.text ? page->readme.text : "");
 	close_file(to, "readme.md");
 }
 

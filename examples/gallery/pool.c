@@ -2,9 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "pool.h"
 
+#include "processors.h"
+
 #include <pthread.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 struct pool {
 	pthread_mutex_t mutex;
@@ -54,8 +55,8 @@ static void *thread_main(void *argument)
 struct pool *pool_create(size_t threads)
 {
 	if (threads == 0) {
-		const long online = sysconf(_SC_NPROCESSORS_ONLN);
-		threads = online < 1 ? 1 : (online > 256 ? 256 : (size_t)online);
+		threads = processor_count();
+		threads = threads > 256 ? 256 : threads;
 	}
 	struct pool *pool = calloc(1, sizeof *pool + (threads - 1) * sizeof pool->thread[0]);
 	if (!pool)

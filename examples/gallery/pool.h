@@ -11,7 +11,7 @@ typedef void pool_work(void *context, size_t begin, size_t end);
 
 struct pool;
 
-/* threads 0: as many as this process may use. NULL when memory or threads run out. */
+/* threads 0: as many as this process may use, at most 256. NULL when memory or threads run out. */
 struct pool *pool_create(size_t threads);
 void pool_destroy(struct pool *pool);
 
