@@ -81,7 +81,6 @@ typedef struct approximations_device approximations_device;
 /* NULL: no OpenCL here, after a word on stderr. */
 approximations_device *approximations_device_open(void);
 void approximations_device_close(approximations_device *device);
-const char *approximations_device_name(const approximations_device *device);
 
 /* Runs kernel id on n elements, rounds times; seconds: of each round, NULL: not asked for. Not 0: failed. */
 int approximations_device_run(approximations_device *device, const char *id, const approximations_set *set, size_t n,
@@ -99,7 +98,6 @@ typedef struct {
 
 void approximations_error_add(approximations_error *e, double got, double exact, const char *format, ...)
 	REPORT_PRINTF(4, 5);
-double approximations_error_rms(const approximations_error *e);
 void approximations_error_albedo(approximations_error *e, double off, double reference, double alpha, double cosine);
 void approximations_error_row(report_rows *rows, const char *group, const char *name, const char *of,
 			      const char *quantity, const approximations_error *e);

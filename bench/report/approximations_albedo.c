@@ -70,7 +70,7 @@ void approximations_error_add(approximations_error *e, double got, double exact,
 	}
 }
 
-double approximations_error_rms(const approximations_error *e) { return e->n > 0.0 ? sqrt(e->sum2 / e->n) : 0.0; }
+static double root_mean_square(const approximations_error *e) { return e->n > 0.0 ? sqrt(e->sum2 / e->n) : 0.0; }
 
 void approximations_error_albedo(approximations_error *e, double off, double reference, double alpha, double cosine)
 {
@@ -91,5 +91,5 @@ void approximations_error_row(report_rows *rows, const char *group, const char *
 		snprintf(albedo, sizeof albedo, "%.4g,%g,%g,%.1e", e->albedo, e->albedo_at[0], e->albedo_at[1],
 			 e->albedo_reference);
 	report_row(rows, "%s,%s,%s,%s,%.0f,%.4g,%s,%.4g,%.1e,%s", group, name, of, quantity, e->n, e->max, e->at,
-		   approximations_error_rms(e), e->reference, albedo);
+		   root_mean_square(e), e->reference, albedo);
 }

@@ -114,8 +114,6 @@ void approximations_device_close(approximations_device *device)
 	free(device);
 }
 
-const char *approximations_device_name(const approximations_device *device) { return lobe_device_name(device->device); }
-
 int approximations_device_run(approximations_device *device, const char *id, const approximations_set *set, size_t n,
 			      const float *const in[APPROXIMATIONS_IN], float *out[APPROXIMATIONS_OUT], int rounds,
 			      double *seconds)

@@ -33,9 +33,6 @@ int approximations_gather(const report_table *errors, const report_table *times,
 /* The one of that name; ends the program where there is none. */
 const approximations_summary *approximations_find(const approximations_summary *all, int n, const char *name);
 
-/* Time that is compared: of the loop as a renderer would run it, vectorised where it can be. */
-double approximations_best_ns(const approximations_summary *s);
-
 /* On the front: nothing is both faster and nearer. */
 void approximations_mark_front(approximations_summary *all, int n);
 

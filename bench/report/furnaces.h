@@ -43,12 +43,10 @@ typedef struct furnaces_integrand {
 	const void *context;
 } furnaces_integrand;
 
-/* The integral by n x n Gauss points to each smooth piece, of a function that is even in y. */
-void furnaces_integrate(const furnaces_integrand *f, size_t n, double sum[3]);
-
-/* By more and more points, n = 8, 12, 16, 24 .. most, until twice the change from either of the last two is less than
- * tolerance; returns that, which holds for the last as long as each is nearer than the one before (in 2 of 1110 cells
- * the bare change was up to 1.4 times too small). scale: of sum. */
+/* The integral of a function that is even in y, by n x n Gauss points to each smooth piece, for more and more n = 8,
+ * 12, 16, 24 .. most, until twice the change from either of the last two is less than tolerance; returns that, which
+ * holds for the last as long as each is nearer than the one before (in 2 of 1110 cells the bare change was up to 1.4
+ * times too small). scale: of sum. */
 double furnaces_integral(const furnaces_integrand *f, double scale, double tolerance, size_t most, double sum[3]);
 
 /* --- surfaces ----------------------------------------------------------------------------------------------------- */

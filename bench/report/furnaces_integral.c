@@ -216,7 +216,7 @@ static int turns_of(const furnaces_integrand *f, int steps, double at[TURNS_MAX]
 	return n;
 }
 
-void furnaces_integrate(const furnaces_integrand *f, size_t n, double sum[3])
+static void integrate(const furnaces_integrand *f, size_t n, double sum[3])
 {
 	double nodes[NODES_MAX][2], at[TURNS_MAX];
 	const int turns = turns_of(f, steps_of(f, n), at) - 1;
@@ -239,10 +239,10 @@ double furnaces_integral(const furnaces_integrand *f, double scale, double toler
 {
 	static const size_t points[] = {8, 12, 16, 24, 32, 48, 64};
 	double before[2][3], change = HUGE_VAL;
-	furnaces_integrate(f, points[0], before[0]);
-	furnaces_integrate(f, points[1], before[1]);
+	integrate(f, points[0], before[0]);
+	integrate(f, points[1], before[1]);
 	for (size_t i = 2; i < sizeof points / sizeof *points && points[i] <= most && !(change < tolerance); i++) {
-		furnaces_integrate(f, points[i], sum);
+		integrate(f, points[i], sum);
 		change = 0.0;
 		for (int k = 0; k < 3; k++) {
 			change = fmax(change,

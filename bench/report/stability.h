@@ -37,10 +37,9 @@ typedef struct {
  * unit length by up to four ulp; wi mostly where the lobe is. A function of its arguments. */
 stability_case stability_draw(lobe_uint kind, uint64_t n);
 
-/* The parts of that: parameters alone, and directions for a lobe that is there. */
+/* The parts of that: parameters alone, and directions for a lobe that is there, wi without a look at it. */
 void stability_draw_parameters(lobe_uint kind, uint64_t n, double parameter[CASE_PARAMETERS]);
-void stability_draw_directions(stability_case *c, uint64_t n);
-void stability_draw_anywhere(stability_case *c, uint64_t n); /* wi without a look at the lobe */
+void stability_draw_anywhere(stability_case *c, uint64_t n);
 lobe_bsdf stability_bsdf(const stability_case *c);
 
 /* What is asked of a reference. reflects: the event of a sample of a delta lobe; delta: refraction is one (a property

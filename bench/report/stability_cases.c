@@ -238,7 +238,7 @@ void stability_draw_anywhere(stability_case *c, uint64_t n)
 }
 
 /* Three of four where the lobe is. */
-void stability_draw_directions(stability_case *c, uint64_t n)
+static void draw_directions(stability_case *c, uint64_t n)
 {
 	stability_draw_anywhere(c, n);
 	if (n % 4 == 0)
@@ -258,7 +258,7 @@ stability_case stability_draw(lobe_uint kind, uint64_t n)
 	memset(&c, 0, sizeof c);
 	c.kind = kind;
 	stability_draw_parameters(kind, n, c.parameter);
-	stability_draw_directions(&c, n);
+	draw_directions(&c, n);
 	return c;
 }
 

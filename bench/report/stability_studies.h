@@ -7,7 +7,6 @@
 
 /* Bins of error/floor, eight an octave from 2^-8 on; bin 0 is 0. */
 enum { STABILITY_BINS = 512 };
-int stability_bin(double ratio);
 
 /* Results of one lobe, verb and reference. cases: asked; compared: where not both are 0; above: beyond 16 floors, and
  * why. bins: of what is neither undetermined nor tiny, which go to bin 0. */

@@ -8,7 +8,7 @@
 
 /* --- errors --------------------------------------------------------------------------------------------------------- */
 
-int stability_bin(double ratio)
+static int bin_of(double ratio)
 {
 	if (!(ratio > 0.0))
 		return 0;
@@ -32,8 +32,8 @@ void stability_tally_add(stability_tally *t, const stability_case *c, stability_
 		class = stability_explain(c, verb, r);
 		t->classes[class]++;
 	}
-	t->bins[stability_bin(ratio)]++;
-	t->bins_of_one[stability_bin(one)]++;
+	t->bins[bin_of(ratio)]++;
+	t->bins_of_one[bin_of(one)]++;
 	if (ratio > 0.0)
 		t->worst_ulp = fmax(t->worst_ulp, r->error / r->ulp);
 	t->worst = fmax(t->worst, ratio);

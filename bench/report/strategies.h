@@ -100,9 +100,6 @@ int strategies_ndf(int material);
 /* One estimate of the luminance. u for a direction from the lobe, v for one from the light. */
 float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3]);
 
-/* That a technique takes the lobe's direction from; VISIBLE for the light alone. */
-lobe_uint strategies_strategy(int technique);
-
 /* The same, and what it is made of, compiled for one distribution and for each strategy alone (strategies_only.h): what
  * times are of. The same bits. */
 typedef struct {

@@ -84,7 +84,8 @@ strategies_case strategies_case_make(int material, double alpha, double cosine, 
 
 /* --- techniques --------------------------------------------------------------------------------------------------- */
 
-lobe_uint strategies_strategy(int technique)
+/* That a technique takes the lobe's direction from; VISIBLE for the light alone. */
+static lobe_uint strategy_of(int technique)
 {
 	if (technique == STRATEGIES_BALANCE_BOUNDED)
 		return LOBE_STRATEGY_BOUNDED_CAP;
@@ -98,7 +99,7 @@ const strategies_compiled *strategies_compiled_for(const strategies_case *c)
 
 float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3])
 {
-	return strategies_by(c, technique, c->lobe[strategies_strategy(technique)], u, v);
+	return strategies_by(c, technique, c->lobe[strategy_of(technique)], u, v);
 }
 
 float strategies_estimate_production(const strategies_case *c, const lobe_rough_conductor *p, const float u[3])

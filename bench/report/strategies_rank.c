@@ -176,7 +176,8 @@ rank_defeat rank_defeat_of(const rank_map *m, int k, int measure, int among, int
 	return d;
 }
 
-int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure)
+/* Where the lobe is what to sample: no technique that asks the light is clearly better. */
+static int lobes_turn(const rank_map *m, const rank_cell *c, int measure)
 {
 	return rank_winner(m, c, STRATEGIES_TECHNIQUES, measure) < STRATEGIES_LOBE;
 }
@@ -188,7 +189,7 @@ rank_share rank_share_of(const rank_map *m, int k, int measure, int among, int n
 		const rank_cell *c = &m->cell[i];
 		if (rank_dark(c) || (ndf >= 0 && strategies_ndf(c->material) != ndf))
 			continue;
-		const int good = rank_unbeaten(m, c, k, measure, among), turn = rank_lobes_turn(m, c, measure);
+		const int good = rank_unbeaten(m, c, k, measure, among), turn = lobes_turn(m, c, measure);
 		s.cells++;
 		s.turns += turn;
 		s.all += good;

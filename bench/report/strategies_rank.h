@@ -82,9 +82,6 @@ int rank_best(const rank_map *m, const rank_cell *c, int measure, int among);
 /* Of k by rival; light: of the grid, or -1 for all; rival: or -1 for any. */
 rank_defeat rank_defeat_of(const rank_map *m, int k, int measure, int among, int light, int rival);
 
-/* Where the lobe is what to sample: no technique that asks the light is clearly better. */
-int rank_lobes_turn(const rank_map *m, const rank_cell *c, int measure);
-
 /* Of cells where k is unbeaten. ndf: as strategies_ndf, or -1 for all. */
 rank_share rank_share_of(const rank_map *m, int k, int measure, int among, int ndf);
 
