@@ -14,10 +14,9 @@
 #include "approximations.h"
 #include "approximations_field.h"
 #include "csv.h"
+#include "pi.h"
 #include "support.h"
 #include "textbook.h"
-
-#define PI 3.14159265358979323846
 
 enum { WAVES = APPROXIMATIONS_WAVES, LANES = 16, MODELS = 7 };
 

@@ -9,6 +9,7 @@
 
 #include "approximations.h"
 #include "csv.h"
+#include "pi.h"
 #include "support.h"
 #include "textbook.h"
 
@@ -110,7 +111,7 @@ static void masking(approximations_group group, double alpha, int quick, report_
 			for (int k = 0; k < steps; k++)
 				for (int f = 0; f < steps / 2; f++) {
 					const double oz = (i + 0.5) / steps, iz = (k + 0.5) / steps;
-					const double phi = 3.14159265358979324 * (f + 0.5) / (steps / 2);
+					const double phi = PI * (f + 0.5) / (steps / 2);
 					const double so = sqrt(1.0 - oz * oz), si = sqrt(1.0 - iz * iz);
 					const double o[3] = {so, 0.0, oz}, in[3] = {si * cos(phi), si * sin(phi), iz};
 					const double lo = textbook_ggx_lambda(width, width, o);

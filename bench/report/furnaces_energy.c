@@ -2,9 +2,8 @@
 #include <math.h>
 
 #include "furnaces.h"
+#include "pi.h"
 #include "textbook.h"
-
-#define PI 3.14159265358979323846
 
 static const double tolerances[] = {1e-4, 5e-6, 5e-7};
 static const size_t points_most[] = {32, 64, 64};

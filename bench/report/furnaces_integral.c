@@ -11,8 +11,7 @@
 #include <stdlib.h>
 
 #include "furnaces.h"
-
-#define PI 3.14159265358979323846
+#include "pi.h"
 
 enum { NODES_MAX = 128, ROOTS_MAX = 32, TURNS_MAX = 32 };
 

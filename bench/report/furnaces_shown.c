@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "furnaces.h"
+#include "pi.h"
 
 enum { ANGLES = 5 };
 static const double angles[ANGLES] = {0.0, 45.0, 60.0, 75.0, 85.0}; /* degrees */
@@ -57,7 +58,7 @@ static int run(int quick, size_t unit, report_rows *rows)
 	/* Masking may have kinks as well. */
 	const int pieces = quick ? 1 : 4;
 	for (int k = 0; k < ANGLES; k++) {
-		const furnaces_energy e = furnaces_energy_at(s, value, cos(angles[k] * 3.14159265358979323846 / 180.0),
+		const furnaces_energy e = furnaces_energy_at(s, value, cos(angles[k] * PI / 180.0),
 							     quick ? FURNACES_ROUGH : FURNACES_FINEST);
 		row(rows, s, value, "angle", angles[k], &e);
 	}

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cases_make.h"
+#include "pi.h"
 #include "stability.h"
 #include "support.h"
 
@@ -82,7 +83,7 @@ static void draw_surface(dice *d, double *p)
 	const uint32_t shape = bits(d) % 8, how = bits(d) % 8;
 	const double far = 1.0 - decades(d, -4, 0), s = sign(d);
 	const double rho = how < 2 ? 0.0 : how < 4 ? s * 0.9999 : s * far;
-	const double mean = decades(d, -3, 2), phi = 6.283185307179586 * uniform(d);
+	const double mean = decades(d, -3, 2), phi = 2.0 * PI * uniform(d);
 	const double tilted = bits(d) % 3 ? mean : 0.0;
 	draw_alphas(d, p);
 	p[12] = rho * p[1];
@@ -195,7 +196,7 @@ static void draw_direction(dice *d, float w[3])
 	const uint32_t how = bits(d) % 8, axis = bits(d) % 16;
 	const double grazing = decades(d, -7, 0), pole = 1.0 - decades(d, -14, -1), any = uniform(d);
 	const double z = sign(d) * (how < 4 ? grazing : how == 4 ? pole : how == 5 ? 1.0 : any);
-	const double r = sqrt((1.0 - z) * (1.0 + z)), phi = 6.283185307179586 * uniform(d);
+	const double r = sqrt((1.0 - z) * (1.0 + z)), phi = 2.0 * PI * uniform(d);
 	/* Exactly along an axis now and then. */
 	const double c = axis < 4 ? (double[]){1, 0, -1, 0}[axis] : cos(phi);
 	const double s = axis < 4 ? (double[]){0, 1, 0, -1}[axis] : sin(phi);

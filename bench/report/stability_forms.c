@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "pi.h"
 #include "stability_reference.h"
 #include "support.h"
 
@@ -98,7 +99,7 @@ static double decades(dice *d, double lo, double hi) { return pow(10.0, lo + (hi
 
 static lobe_vec3 direction(dice *d)
 {
-	const double z = uniform(d) < 0.5 ? decades(d, -7, 0) : uniform(d), phi = 6.283185307179586 * uniform(d);
+	const double z = uniform(d) < 0.5 ? decades(d, -7, 0) : uniform(d), phi = 2.0 * PI * uniform(d);
 	const double r = sqrt((1.0 - z) * (1.0 + z));
 	return lobe_vec3_make((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
 }

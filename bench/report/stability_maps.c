@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pi.h"
 #include "stability_studies.h"
 #include "support.h"
 
@@ -58,7 +59,7 @@ static void run_cell(const map *m, size_t column, size_t row, size_t cases, repo
 				c.parameter[2 + k] = (double)(float)m->rest[k];
 			/* Over the cell's extent, not its middle alone. */
 			const double cosine = fmin(1.0, z * pow(10.0, 0.25 * (uniform(&at) - 0.5)));
-			const double r = sqrt((1.0 - cosine) * (1.0 + cosine)), phi = 6.283185307179586 * uniform(&at);
+			const double r = sqrt((1.0 - cosine) * (1.0 + cosine)), phi = 2.0 * PI * uniform(&at);
 			c.wo[0] = (float)(r * cos(phi));
 			c.wo[1] = (float)(r * sin(phi));
 			c.wo[2] = (float)(m->below ? -cosine : cosine);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "pi.h"
 #include "strategies_estimate.h"
 
 static const char *const names[STRATEGIES_TECHNIQUES] = {
@@ -70,7 +71,7 @@ strategies_case strategies_case_make(int material, double alpha, double cosine, 
 {
 	strategies_case c;
 	const double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
-	const double phi = material == STRATEGIES_BRUSHED ? 0.52359877559829887 : 0.0;
+	const double phi = material == STRATEGIES_BRUSHED ? PI / 6.0 : 0.0;
 	memset(&c, 0, sizeof c);
 	c.material = material;
 	c.alpha = alpha;

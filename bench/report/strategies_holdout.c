@@ -8,10 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "pi.h"
 #include "random.h"
 #include "strategies_rank.h"
-
-#define PI 3.14159265358979323846
 
 enum { DISK, NEAR, DISK_AND_SKY, GLOW, SKY, PROBE, KINDS };
 static const char *const kinds[KINDS] = {"disk", "disk near the highlight", "disk and sky", "glow", "sky", "probe"};

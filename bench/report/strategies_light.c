@@ -10,9 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pi.h"
 #include "strategies.h"
-
-#define PI 3.14159265358979323846
 
 static struct light probes[STRATEGIES_PROBES];
 static char probe_names[STRATEGIES_PROBES][48];

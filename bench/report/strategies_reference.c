@@ -2,12 +2,11 @@
  * of the power heuristic, and quadrature of the textbook's formula in double precision. */
 #include <math.h>
 
+#include "pi.h"
 #include "quadrature.h"
 #include "random.h"
 #include "strategies.h"
 #include "textbook.h"
-
-#define PI 3.14159265358979323846
 
 double strategies_reference(const strategies_case *c, uint32_t n, uint32_t runs, uint32_t seed, double *error)
 {

@@ -8,9 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pi.h"
 #include "strategies.h"
-
-#define PI 3.14159265358979323846
 
 /* Rings around the axis, evenly in the logarithm of 1 - cos from 1e-6 on. */
 enum { RINGS = 260 };

@@ -1,6 +1,8 @@
 /* light.c - see light.h. */
 #include "light.h"
 
+#include "pi.h"
+
 #include <float.h>
 #include <stdlib.h>
 
@@ -67,12 +69,12 @@ static int build(struct light *light)
 		return -1;
 	double *rows = sum + longest;
 	for (size_t y = 0; y <= h; y++)
-		light->cos_theta[y] = (float)cos(3.14159265358979323846 * (double)y / (double)h);
+		light->cos_theta[y] = (float)cos(PI * (double)y / (double)h);
 	light->cos_theta[h] = -1.0f;
 	rows[0] = 0.0;
 	for (size_t y = 0; y < h; y++) {
-		const double solid_angle = 2.0 * 3.14159265358979323846 / (double)w *
-					   ((double)light->cos_theta[y] - (double)light->cos_theta[y + 1]);
+		const double solid_angle =
+			2.0 * PI / (double)w * ((double)light->cos_theta[y] - (double)light->cos_theta[y + 1]);
 		sum[0] = 0.0;
 		for (size_t x = 0; x < w; x++)
 			sum[x + 1] = sum[x] + (double)luminance(light->texel[y * w + x].radiance);

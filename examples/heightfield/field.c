@@ -1,13 +1,12 @@
 /* field.c - see field.h. */
 #include "field.h"
 
+#include "pi.h"
 #include "random.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Root mean square wave number of heights along an axis, radians a texel: central differences find slopes by 1 - k^2
  * too small. Patches of one width are some times as large as waves. */
