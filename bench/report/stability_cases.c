@@ -4,17 +4,11 @@
 #include <string.h>
 
 #include "cases_make.h"
-#include "pi.h"
 #include "stability.h"
-#include "support.h"
+#include "stability_dice.h"
 
 /* Numbers of one case: at most DRAWS of them. */
 enum { STREAM = 7300, DRAWS = 96 };
-
-typedef struct {
-	uint32_t stream;
-	uint64_t at;
-} dice;
 
 static dice dice_of(lobe_uint kind, uint64_t n, unsigned part)
 {
@@ -22,20 +16,16 @@ static dice dice_of(lobe_uint kind, uint64_t n, unsigned part)
 	return d;
 }
 
-static uint32_t bits(dice *d) { return test_bits(d->stream, d->at++); }
-/* [0, 1) */
-static double uniform(dice *d) { return (double)bits(d) * 0x1p-32; }
-static int one_in(dice *d, unsigned n) { return bits(d) % n == 0; }
-/* 10^lo .. 10^hi, its logarithm uniform */
-static double decades(dice *d, double lo, double hi) { return pow(10.0, lo + (hi - lo) * uniform(d)); }
-static double sign(dice *d) { return bits(d) & 1u ? 1.0 : -1.0; }
+static int one_in(dice *d, unsigned n) { return dice_bits(d) % n == 0; }
+static double sign(dice *d) { return dice_bits(d) & 1u ? 1.0 : -1.0; }
 
 /* --- parameters --------------------------------------------------------------------------------------------------- */
 
 static void draw_alphas(dice *d, double *p)
 {
-	const uint32_t how = bits(d) % 8;
-	const double ax = one_in(d, 4) ? 1e-4 : one_in(d, 8) ? 1.0 : decades(d, -4, 0), other = decades(d, -4, 0);
+	const uint32_t how = dice_bits(d) % 8;
+	const double ax = one_in(d, 4) ? 1e-4 : one_in(d, 8) ? 1.0 : dice_decades(d, -4, 0);
+	const double other = dice_decades(d, -4, 0);
 	p[0] = how == 0 ? 1e-4 : how == 1 ? 1.0 : ax;
 	p[1] = how == 0 ? 1.0 : how == 1 ? 1e-4 : how < 4 ? other : ax;
 }
@@ -45,32 +35,32 @@ static double draw_eta(dice *d)
 {
 	static const double ends[] = {1.0,    1 + 0x1p-23, 1 - 0x1p-24, 1 + 1e-7, 1 - 1e-7,
 				      1000.0, 1e-3,        1.5,         1 / 1.5,  1.33};
-	const uint32_t how = bits(d) % 8;
-	const double near = 1.0 + sign(d) * decades(d, -7, -0.3), any = decades(d, -3, 3);
-	return how < 4 ? near : how < 6 ? any : ends[bits(d) % (sizeof ends / sizeof *ends)];
+	const uint32_t how = dice_bits(d) % 8;
+	const double near = 1.0 + sign(d) * dice_decades(d, -7, -0.3), any = dice_decades(d, -3, 3);
+	return how < 4 ? near : how < 6 ? any : ends[dice_bits(d) % (sizeof ends / sizeof *ends)];
 }
 
 static void draw_index(dice *d, double *n, double *k)
 {
-	const uint32_t how = bits(d) % 8;
-	const double near = 1.0 + sign(d) * decades(d, -7, -0.3);
-	*n = how < 2 ? near : how == 2 ? 1.0 : decades(d, -3, 3);
-	*k = one_in(d, 6) ? 0.0 : one_in(d, 8) ? 100.0 : decades(d, -7, 2);
+	const uint32_t how = dice_bits(d) % 8;
+	const double near = 1.0 + sign(d) * dice_decades(d, -7, -0.3);
+	*n = how < 2 ? near : how == 2 ? 1.0 : dice_decades(d, -3, 3);
+	*k = one_in(d, 6) ? 0.0 : one_in(d, 8) ? 100.0 : dice_decades(d, -7, 2);
 }
 
 static double draw_reflectance(dice *d)
 {
-	const uint32_t how = bits(d) % 6;
-	const double low = decades(d, -7, 0), any = uniform(d);
+	const uint32_t how = dice_bits(d) % 6;
+	const double low = dice_decades(d, -7, 0), any = dice_uniform(d);
 	return how == 0 ? 0.0 : how == 1 ? 1.0 : how == 2 ? low : any;
 }
 
 static void draw_film(dice *d, double *p, double least)
 {
-	const uint32_t how = bits(d) % 8;
-	p[0] = how == 0 ? 0.0 : how == 1 ? 1e-30 : how == 2 ? 1e6 : decades(d, 0, 4);
-	const double near = 1.0 + decades(d, -7, 0), any = decades(d, 0, 3);
-	p[1] = least * (one_in(d, 6) ? 1.0 : bits(d) & 1u ? near : any);
+	const uint32_t how = dice_bits(d) % 8;
+	p[0] = how == 0 ? 0.0 : how == 1 ? 1e-30 : how == 2 ? 1e6 : dice_decades(d, 0, 4);
+	const double near = 1.0 + dice_decades(d, -7, 0), any = dice_decades(d, 0, 3);
+	p[1] = least * (one_in(d, 6) ? 1.0 : dice_bits(d) & 1u ? near : any);
 }
 
 /* Slopes of width a_x, a_y and correlation rho about a mean, as their Cholesky factor (Dupuy et al. 2013). */
@@ -80,11 +70,11 @@ static void draw_surface(dice *d, double *p)
 		{LOBE_NDF_GGX, 0, 1}, {LOBE_NDF_BECKMANN, 0, 1}, {LOBE_NDF_GGX, 0, 1},       {LOBE_NDF_BECKMANN, 0, 1},
 		{LOBE_NDF_GGX, 0, 1}, {LOBE_NDF_PHONG, 30, 1},   {LOBE_NDF_STUDENT_T, 3, 1}, {LOBE_NDF_GTR, 1.5, 0.3},
 	};
-	const uint32_t shape = bits(d) % 8, how = bits(d) % 8;
-	const double far = 1.0 - decades(d, -4, 0), s = sign(d);
+	const uint32_t shape = dice_bits(d) % 8, how = dice_bits(d) % 8;
+	const double far = 1.0 - dice_decades(d, -4, 0), s = sign(d);
 	const double rho = how < 2 ? 0.0 : how < 4 ? s * 0.9999 : s * far;
-	const double mean = decades(d, -3, 2), phi = 2.0 * PI * uniform(d);
-	const double tilted = bits(d) % 3 ? mean : 0.0;
+	const double mean = dice_decades(d, -3, 2), phi = dice_angle(d);
+	const double tilted = dice_bits(d) % 3 ? mean : 0.0;
 	draw_alphas(d, p);
 	p[12] = rho * p[1];
 	p[1] *= sqrt((1.0 - rho) * (1.0 + rho));
@@ -93,7 +83,7 @@ static void draw_surface(dice *d, double *p)
 	for (int k = 0; k < 3; k++)
 		p[8 + k] = shapes[shape][k];
 	/* A third of the surfaces are masked and sampled in ways that only the double build has an answer for. */
-	const uint32_t other = bits(d) % 3, masking = bits(d), joint = bits(d), strategy = bits(d);
+	const uint32_t other = dice_bits(d) % 3, masking = dice_bits(d), joint = dice_bits(d), strategy = dice_bits(d);
 	p[15] = other ? LOBE_MASKING_SMITH : masking % (LOBE_MASKING_LAST + 1);
 	p[16] = other ? joint % 2 : joint % (LOBE_JOINT_LAST + 1);
 	p[17] = other ? LOBE_ACROSS_SEPARABLE : joint / 16 % 2;
@@ -126,7 +116,7 @@ void stability_draw_parameters(lobe_uint kind, uint64_t n, double p[CASE_PARAMET
 	case LOBE_KIND_BECKMANN_DIELECTRIC:
 		draw_alphas(&d, p);
 		p[2] = draw_eta(&d);
-		p[3] = bits(&d) & 1u;
+		p[3] = dice_bits(&d) & 1u;
 		break;
 	case LOBE_KIND_SMOOTH_CONDUCTOR:
 		for (int k = 0; k < 3; k++)
@@ -135,7 +125,7 @@ void stability_draw_parameters(lobe_uint kind, uint64_t n, double p[CASE_PARAMET
 	case LOBE_KIND_SMOOTH_DIELECTRIC:
 	case LOBE_KIND_THIN_DIELECTRIC:
 		p[0] = draw_eta(&d);
-		p[1] = kind == LOBE_KIND_SMOOTH_DIELECTRIC ? bits(&d) & 1u : 0;
+		p[1] = kind == LOBE_KIND_SMOOTH_DIELECTRIC ? dice_bits(&d) & 1u : 0;
 		break;
 	case LOBE_KIND_IRIDESCENT_CONDUCTOR:
 		draw_alphas(&d, p);
@@ -147,7 +137,7 @@ void stability_draw_parameters(lobe_uint kind, uint64_t n, double p[CASE_PARAMET
 		draw_alphas(&d, p);
 		p[4] = draw_eta(&d);
 		draw_film(&d, p + 2, fmin(p[4], 1.0));
-		p[5] = bits(&d) & 1u;
+		p[5] = dice_bits(&d) & 1u;
 		break;
 	case LOBE_KIND_MICROFACET_CONDUCTOR:
 		draw_surface(&d, p);
@@ -157,7 +147,7 @@ void stability_draw_parameters(lobe_uint kind, uint64_t n, double p[CASE_PARAMET
 	case LOBE_KIND_MICROFACET_DIELECTRIC:
 		draw_surface(&d, p);
 		p[2] = draw_eta(&d);
-		p[3] = bits(&d) & 1u;
+		p[3] = dice_bits(&d) & 1u;
 		break;
 	case LOBE_KIND_MICROFACET_DIFFUSE:
 		draw_surface(&d, p);
@@ -187,16 +177,16 @@ static void round_to(const double w[3], double stretch, float out[3])
 /* Off unit length by up to four ulp, one time in four. */
 static double draw_stretch(dice *d)
 {
-	const double ulps = (double)(int)(bits(d) % 9) - 4.0;
+	const double ulps = (double)(int)(dice_bits(d) % 9) - 4.0;
 	return one_in(d, 4) ? 1.0 + ulps * 0x1p-23 : 1.0;
 }
 
 static void draw_direction(dice *d, float w[3])
 {
-	const uint32_t how = bits(d) % 8, axis = bits(d) % 16;
-	const double grazing = decades(d, -7, 0), pole = 1.0 - decades(d, -14, -1), any = uniform(d);
+	const uint32_t how = dice_bits(d) % 8, axis = dice_bits(d) % 16;
+	const double grazing = dice_decades(d, -7, 0), pole = 1.0 - dice_decades(d, -14, -1), any = dice_uniform(d);
 	const double z = sign(d) * (how < 4 ? grazing : how == 4 ? pole : how == 5 ? 1.0 : any);
-	const double r = sqrt((1.0 - z) * (1.0 + z)), phi = 2.0 * PI * uniform(d);
+	const double r = sqrt((1.0 - z) * (1.0 + z)), phi = dice_angle(d);
 	/* Exactly along an axis now and then. */
 	const double c = axis < 4 ? (double[]){1, 0, -1, 0}[axis] : cos(phi);
 	const double s = axis < 4 ? (double[]){0, 1, 0, -1}[axis] : sin(phi);
@@ -207,18 +197,18 @@ static void draw_direction(dice *d, float w[3])
 static float draw_u(dice *d)
 {
 	static const float ends[] = {0.0f, 0x1p-149f, 0x1p-24f, 0.5f, 0x1.fffffep-2f, 0x1.fffffep-1f};
-	const uint32_t how = bits(d) % 8;
-	const float small = (float)decades(d, -44, -7), any = (float)(bits(d) >> 8) * 0x1p-24f;
-	return how == 0 ? ends[bits(d) % 6] : how == 1 ? small : any;
+	const uint32_t how = dice_bits(d) % 8;
+	const float small = (float)dice_decades(d, -44, -7), any = (float)(dice_bits(d) >> 8) * 0x1p-24f;
+	return how == 0 ? ends[dice_bits(d) % 6] : how == 1 ? small : any;
 }
 
 /* Near the mirror image of wo or its straight continuation: off by 10^-8 .. 1. */
 static void draw_near(dice *d, const float wo[3], int across, float wi[3])
 {
-	const double spread = decades(d, -8, 0);
+	const double spread = dice_decades(d, -8, 0);
 	double w[3];
 	for (int k = 0; k < 3; k++)
-		w[k] = (k == 2 && !across ? 1.0 : -1.0) * (double)wo[k] + spread * (2.0 * uniform(d) - 1.0);
+		w[k] = (k == 2 && !across ? 1.0 : -1.0) * (double)wo[k] + spread * (2.0 * dice_uniform(d) - 1.0);
 	round_to(w, draw_stretch(d), wi);
 }
 
@@ -227,11 +217,11 @@ lobe_bsdf stability_bsdf(const stability_case *c) { return make_bsdf(c->kind, c-
 void stability_draw_anywhere(stability_case *c, uint64_t n)
 {
 	dice d = dice_of(c->kind, n, 1);
-	const uint32_t how = bits(&d) % 4;
+	const uint32_t how = dice_bits(&d) % 4;
 	draw_direction(&d, c->wo);
 	for (int k = 0; k < 3; k++)
 		c->u[k] = draw_u(&d);
-	c->channel = (int)(bits(&d) % 3);
+	c->channel = (int)(dice_bits(&d) % 3);
 	if (how < 2)
 		draw_direction(&d, c->wi);
 	else

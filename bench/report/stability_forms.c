@@ -3,9 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "pi.h"
+#include "stability_dice.h"
 #include "stability_reference.h"
-#include "support.h"
 
 enum { FORM_KARIS, FORM_SINE, FORM_LAMBDA, FORM_REFRACTION, FORM_CONDUCTOR, FORM_DIELECTRIC };
 
@@ -89,17 +88,9 @@ static float printed_refraction(lobe_vec3 o, lobe_vec3 i, float alpha, float eta
 
 /* --- beside the library's ------------------------------------------------------------------------------------------- */
 
-typedef struct {
-	uint32_t stream;
-	uint64_t at;
-} dice;
-
-static double uniform(dice *d) { return (double)test_bits(d->stream, d->at++) * 0x1p-32; }
-static double decades(dice *d, double lo, double hi) { return pow(10.0, lo + (hi - lo) * uniform(d)); }
-
 static lobe_vec3 direction(dice *d)
 {
-	const double z = uniform(d) < 0.5 ? decades(d, -7, 0) : uniform(d), phi = 2.0 * PI * uniform(d);
+	const double z = dice_uniform(d) < 0.5 ? dice_decades(d, -7, 0) : dice_uniform(d), phi = dice_angle(d);
 	const double r = sqrt((1.0 - z) * (1.0 + z));
 	return lobe_vec3_make((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
 }
@@ -131,14 +122,14 @@ stability_form_result stability_form_at(int form, uint64_t n)
 {
 	dice d = {7400u + (uint32_t)form, n * 32u};
 	const lobe_vec3 up = direction(&d);
-	const float alpha = (float)decades(&d, -4, 0);
-	const double how = uniform(&d);
+	const float alpha = (float)dice_decades(&d, -4, 0);
+	const double how = dice_uniform(&d);
 	stability_form_result r;
 	long double x[8] = {0};
 	stability_part part = STABILITY_PART_D;
 	size_t inputs = 7;
 	memset(&r, 0, sizeof r);
-	const lobe_vec3 u = lobe_vec3_make((float)uniform(&d), (float)uniform(&d), how < 0.5 ? 0.0f : 0.999f);
+	const lobe_vec3 u = lobe_vec3_make((float)dice_uniform(&d), (float)dice_uniform(&d), how < 0.5 ? 0.0f : 0.999f);
 	switch (form) {
 	case FORM_KARIS:
 	case FORM_SINE: {
@@ -166,8 +157,8 @@ stability_form_result stability_form_at(int form, uint64_t n)
 		break;
 	}
 	case FORM_REFRACTION: {
-		const double near = (uniform(&d) < 0.5 ? -1.0 : 1.0) * decades(&d, -6, -0.3);
-		const float wide = (float)decades(&d, -1, 0), eta = (float)(1.0 + near);
+		const double near = (dice_uniform(&d) < 0.5 ? -1.0 : 1.0) * dice_decades(&d, -6, -0.3);
+		const float wide = (float)dice_decades(&d, -1, 0), eta = (float)(1.0 + near);
 		const lobe_ggx_dielectric p = lobe_ggx_dielectric_make(wide, wide, eta);
 		const lobe_sample s = lobe_ggx_dielectric_sample(p, up, lobe_vec3_make(u.x, u.y, 0.999999f));
 		part = STABILITY_PART_REFRACTION;
@@ -185,7 +176,7 @@ stability_form_result stability_form_at(int form, uint64_t n)
 	}
 	case FORM_CONDUCTOR: {
 		/* Metals: an index that is not air's. */
-		const float c = up.z, a = (float)decades(&d, -2, 1), k = (float)decades(&d, -2, 2);
+		const float c = up.z, a = (float)dice_decades(&d, -2, 1), k = (float)dice_decades(&d, -2, 2);
 		part = STABILITY_PART_CONDUCTOR;
 		inputs = 3;
 		r.x = (double)k;
@@ -197,7 +188,7 @@ stability_form_result stability_form_at(int form, uint64_t n)
 		break;
 	}
 	default: {
-		const double near = decades(&d, -7, 2);
+		const double near = dice_decades(&d, -7, 2);
 		const float c = up.z, eta = (float)(1.0 + near);
 		part = STABILITY_PART_DIELECTRIC;
 		inputs = 2;

@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pi.h"
+#include "stability_dice.h"
 #include "stability_studies.h"
-#include "support.h"
 
 /* --- over (alpha, angle) ---------------------------------------------------------------------------------------------- */
 
@@ -39,13 +38,11 @@ static int by_size(const void *a, const void *b)
 	return x < y ? -1 : x > y;
 }
 
-static double uniform(uint64_t *at) { return (double)test_bits(STREAM, (*at)++) * 0x1p-32; }
-
 /* One cell: the worst and the middle of cases whose wi the lobe was sampled for. */
 static void run_cell(const map *m, size_t column, size_t row, size_t cases, report_rows *rows)
 {
 	const double alpha = pow(10.0, -4.0 + (double)column / PER_DECADE), z = pow(10.0, -0.25 * (double)row);
-	uint64_t at = ((uint64_t)(size_t)(m - maps) << 48) + ((uint64_t)column << 40) + ((uint64_t)row << 32);
+	dice d = {STREAM, ((uint64_t)(size_t)(m - maps) << 48) + ((uint64_t)column << 40) + ((uint64_t)row << 32)};
 	double *ulp = malloc(3 * cases * sizeof *ulp), *ratio = ulp + cases, *floor = ratio + cases;
 	for (stability_verb v = STABILITY_EVAL; ulp && v <= STABILITY_PDF; v++) {
 		size_t n = 0;
@@ -58,13 +55,13 @@ static void run_cell(const map *m, size_t column, size_t row, size_t cases, repo
 			for (int k = 0; k < 6; k++)
 				c.parameter[2 + k] = (double)(float)m->rest[k];
 			/* Over the cell's extent, not its middle alone. */
-			const double cosine = fmin(1.0, z * pow(10.0, 0.25 * (uniform(&at) - 0.5)));
-			const double r = sqrt((1.0 - cosine) * (1.0 + cosine)), phi = 2.0 * PI * uniform(&at);
+			const double cosine = fmin(1.0, z * pow(10.0, 0.25 * (dice_uniform(&d) - 0.5)));
+			const double r = sqrt((1.0 - cosine) * (1.0 + cosine)), phi = dice_angle(&d);
 			c.wo[0] = (float)(r * cos(phi));
 			c.wo[1] = (float)(r * sin(phi));
 			c.wo[2] = (float)(m->below ? -cosine : cosine);
 			for (int k = 0; k < 3; k++)
-				c.u[k] = (float)(test_bits(STREAM, at++) >> 8) * 0x1p-24f;
+				c.u[k] = (float)(dice_bits(&d) >> 8) * 0x1p-24f;
 			const lobe_sample s =
 				lobe_bsdf_sample(stability_bsdf(&c), lobe_vec3_make(c.wo[0], c.wo[1], c.wo[2]),
 						 lobe_vec3_make(c.u[0], c.u[1], c.u[2]));
