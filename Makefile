@@ -259,8 +259,8 @@ test-long:
 vectors: $(B)/tests/tool_vectors
 	$(B)/tests/tool_vectors tests/vectors
 
-THROUGHPUT := $(filter-out bench/strategies.c bench/hand_rows.c bench/peak.c,$(wildcard bench/*.c)) \
-	examples/common/processors.c
+BENCH_COMMON := examples/common/folders.c examples/common/processors.c
+THROUGHPUT := $(filter-out bench/strategies.c bench/hand_rows.c bench/peak.c,$(wildcard bench/*.c)) $(BENCH_COMMON)
 BENCH_LOOPS := $(foreach i,$(ISAS),$(B)/bench/hand_rows_$(i).o $(B)/bench/peak_$(i).o)
 define BENCH_RULE
 $(B)/bench/%_$(1).o: bench/%.c $(HEADERS) $(wildcard bench/*.h) | $(B)/bench
@@ -269,7 +269,7 @@ $(B)/bench/%_$(1).o: bench/%.c $(HEADERS) $(wildcard bench/*.h) | $(B)/bench
 endef
 $(foreach i,$(ISAS),$(eval $(call BENCH_RULE,$(i))))
 
-$(B)/bench/throughput: $(THROUGHPUT) $(BENCH_LOOPS) $(wildcard bench/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
+$(B)/bench/throughput: $(THROUGHPUT) $(BENCH_LOOPS) $(wildcard bench/*.h examples/common/*.h) $(B)/liblobe.a $(B)/liblobe.so | $(B)/bench
 	@echo "  link  $@"
 	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) $(filter -DLOBE_X86,$(LIB_CFLAGS)) -Iinclude -Isrc $(THROUGHPUT) \
 		$(BENCH_LOOPS) $(B)/liblobe.a -o $@ $(LIBS)
@@ -288,8 +288,8 @@ bench:
 	@$(B)/bench/strategies
 	@! command -v gnuplot >/dev/null || gnuplot bench/plots.gp
 
-FIGURES := $(wildcard bench/figures/*.c) bench/machine.c examples/common/processors.c
-$(B)/bench/figures: $(FIGURES) $(wildcard bench/*.h bench/figures/*.h) $(B)/liblobe.a | $(B)/bench
+FIGURES := $(wildcard bench/figures/*.c) bench/machine.c $(BENCH_COMMON)
+$(B)/bench/figures: $(FIGURES) $(wildcard bench/*.h bench/figures/*.h examples/common/*.h) $(B)/liblobe.a | $(B)/bench
 	@echo "  link  $@"
 	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) -Iinclude -Isrc $(FIGURES) $(B)/liblobe.a -o $@ $(LIBS)
 

@@ -3,11 +3,11 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/utsname.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "../examples/common/folders.h"
 #include "../examples/common/processors.h"
 #include "machine.h"
 
@@ -100,16 +100,8 @@ void bench_progress(const char *what, size_t i, size_t n)
 
 FILE *bench_create_file(const char *path)
 {
-	char folder[1024];
-	FILE *file;
-	snprintf(folder, sizeof folder, "%s", path);
-	for (char *slash = strchr(folder + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-		*slash = '\0';
-		if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-			break; /* fopen says why */
-		*slash = '/';
-	}
-	file = fopen(path, "w");
+	make_folders_of(path); /* where that fails, so does fopen */
+	FILE *const file = fopen(path, "w");
 	if (!file)
 		fprintf(stderr, "bench: %s: %s\n", path, strerror(errno));
 	return file;

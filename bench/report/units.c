@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "../machine.h"
@@ -14,6 +13,7 @@
 #include "lobe/lobe.h"
 #include "pool.h"
 #include "csv.h"
+#include "folders.h"
 #include "units.h"
 
 /* --- what rows follow from ---------------------------------------------------------------------------------------- */
@@ -148,20 +148,8 @@ static void run_missing(run *r, size_t threads)
 
 /* --- a study ------------------------------------------------------------------------------------------------------ */
 
-static void make_folders(const char *study)
+static void fail(const char *path)
 {
-	char path[512];
-	snprintf(path, sizeof path, REPORT_FOLDER "/data/%s", study);
-	for (char *at = path; at; at = strchr(at + 1, '/')) {
-		if (at == path)
-			continue;
-		*at = '\0';
-		if (mkdir(path, 0777) != 0 && errno != EEXIST)
-			break; /* the last one says why */
-		*at = '/';
-	}
-	if (mkdir(path, 0777) == 0 || errno == EEXIST)
-		return;
 	fprintf(stderr, "report: %s: %s\n", path, strerror(errno));
 	exit(1);
 }
@@ -173,7 +161,9 @@ report_table *report_study_run(const report_section *section, const report_study
 	run r = {.study = study, .quick = quick, .key = key_of(section, study, quick), .missing = missing};
 	report_rows all = {NULL, 0, 0};
 	char path[512];
-	make_folders(study->name);
+	snprintf(path, sizeof path, REPORT_FOLDER "/data/%s", study->name);
+	if (make_folders(path) != 0)
+		fail(path);
 	for (size_t i = 0; i < units; i++) {
 		unit_path(study, r.key, i, path, sizeof path);
 		if (access(path, R_OK) != 0)
@@ -186,10 +176,8 @@ report_table *report_study_run(const report_section *section, const report_study
 	const size_t header = all.length;
 	for (size_t i = 0; i < units; i++) {
 		unit_path(study, r.key, i, path, sizeof path);
-		if (!report_rows_read(&all, path)) {
-			fprintf(stderr, "report: %s: %s\n", path, strerror(errno));
-			exit(1);
-		}
+		if (!report_rows_read(&all, path))
+			fail(path);
 	}
 	snprintf(path, sizeof path, REPORT_FOLDER "/%s.csv", study->name);
 	report_rows_write(&all, path);

@@ -1,15 +1,12 @@
 /* image.c - see image.h. */
-#define _POSIX_C_SOURCE 200809L
 #include "image.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include <png.h>
 
@@ -346,23 +343,4 @@ int image_write_png(const struct image *image, const char *path, float exposure,
 int image_write_png_plain(const struct image *image, const char *path, char *message, size_t size)
 {
 	return write_png(image, path, 1.0f, 0, message, size);
-}
-
-/* --- folders ---------------------------------------------------------------------------------------------------- */
-
-int make_directories(const char *path, char *message, size_t size)
-{
-	char part[512];
-	const size_t n = strlen(path);
-	if (n >= sizeof part)
-		return fail(message, size, "%s: too long", path);
-	for (size_t i = 1; i <= n; i++) {
-		if (path[i] != '/' && path[i] != '\0')
-			continue;
-		memcpy(part, path, i);
-		part[i] = '\0';
-		if (mkdir(part, 0777) != 0 && errno != EEXIST)
-			return fail(message, size, "%s: %s", part, strerror(errno));
-	}
-	return 0;
 }

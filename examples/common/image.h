@@ -28,9 +28,6 @@ int image_write_png(const struct image *image, const char *path, float exposure,
 /* The same without tone curve and exposure: 0 to 1, for pictures of data. */
 int image_write_png_plain(const struct image *image, const char *path, char *message, size_t size);
 
-/* A folder and those above it, if they are not there. */
-int make_directories(const char *path, char *message, size_t size);
-
 void image_free(struct image *image);
 
 #endif

@@ -4,12 +4,14 @@
  * scene.c holds what is looked at, light.c what lights it, options.c the arguments, ../common/ random numbers and
  * files; here are devices, pictures and tables. */
 #define _POSIX_C_SOURCE 200809L
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "folders.h"
 #include "image.h"
 #include "light.h"
 #include "options.h"
@@ -343,7 +345,6 @@ int main(int argc, char **argv)
 	struct error errors[ERROR_STEPS];
 	size_t count = 0;
 	int result = EXIT_FAILURE;
-	char message[1024];
 
 	const int parsed = options_parse(&o, argc, argv);
 	if (parsed != 0) {
@@ -361,8 +362,8 @@ int main(int argc, char **argv)
 	}
 	if (make_light(&light, &o) != 0)
 		goto done;
-	if (make_directories(o.out, message, sizeof message) != 0) {
-		complain("folder", message);
+	if (make_folders(o.out) != 0) {
+		complain(o.out, strerror(errno));
 		goto done;
 	}
 	const int opened = strcmp(o.devices, "all") ? open_listed(entries, &count, o.devices, &scene)

@@ -3,6 +3,7 @@
  *
  * field.c makes the fields, fit.c is how lobe is used on them, disk.c draws distributions of normals and sphere.c
  * renders; here are files and tables. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 #include "disk.h"
 #include "field.h"
 #include "fit.h"
+#include "folders.h"
 #include "image.h"
 #include "progress.h"
 #include "sphere.h"
@@ -313,15 +315,14 @@ done:
 int main(int argc, char **argv)
 {
 	struct options o = {"out/heightfield", 1024, 176, 48};
-	char message[1024];
 	const int parsed = parse(&o, argc, argv);
 	if (parsed != 0) {
 		fputs(parsed > 0 ? usage : "", stdout);
 		return parsed > 0 ? EXIT_SUCCESS : EXIT_USAGE;
 	}
 	setvbuf(stdout, NULL, _IOLBF, 0); /* so that it keeps its order with stderr in a log */
-	if (make_directories(o.out, message, sizeof message) != 0) {
-		complain("folder", message);
+	if (make_folders(o.out) != 0) {
+		complain(o.out, strerror(errno));
 		return EXIT_FAILURE;
 	}
 	for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
