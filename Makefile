@@ -274,10 +274,11 @@ $(B)/bench/throughput: $(THROUGHPUT) $(BENCH_LOOPS) $(wildcard bench/*.h example
 	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) $(filter -DLOBE_X86,$(LIB_CFLAGS)) -Iinclude -Isrc $(THROUGHPUT) \
 		$(BENCH_LOOPS) $(B)/liblobe.a -o $@ $(LIBS)
 
-$(B)/bench/strategies: bench/strategies.c bench/timing.c bench/timing.h $(B)/liblobe.a | $(B)/bench
+STRATEGIES := bench/strategies.c bench/machine.c bench/timing.c $(BENCH_COMMON)
+$(B)/bench/strategies: $(STRATEGIES) $(wildcard bench/*.h bench/report/strategies_names.h examples/common/*.h) $(B)/liblobe.a \
+		| $(B)/bench
 	@echo "  link  $@"
-	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) $(NATIVE) -Iinclude -Isrc bench/strategies.c bench/timing.c \
-		$(B)/liblobe.a -o $@ $(LIBS)
+	$(Q)$(CC) -std=c99 -pedantic $(WARN) $(CFLAGS) $(EXACT) $(NATIVE) -Iinclude -Isrc $(STRATEGIES) $(B)/liblobe.a -o $@ $(LIBS)
 
 bench:
 	@./deps.sh all

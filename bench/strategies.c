@@ -12,29 +12,21 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "lobe/lobe.h"
+#include "lobe/recommend.h"
+#include "machine.h"
+#include "report/strategies_names.h"
 #include "timing.h"
 
 enum { STRATEGIES = LOBE_STRATEGY_LAST + 1, RUNS = 7 };
 
-static const char *const names[STRATEGIES] = {"visible",        "uniform",  "cosine",      "plain ndf", "slopes 2014",
-					      "ellipsoid 2018", "cap 2023", "bounded cap", "v-cavity",  "hemisphere"};
+static const char *const names[STRATEGIES] = {STRATEGIES_NAMES};
 
 typedef struct {
 	double ns, spread, mean, variance, rejected, efficiency;
 } result;
-
-/* Numbers of a sequence that fills the cube evenly (Roberts 2018): variances are those of independent samples all the
- * same, as they are averages over the cube. */
-static lobe_vec3 point(uint32_t i)
-{
-	return lobe_vec3_make((float)((i * 0xd1b54a33u) >> 8) * 0x1p-24f, (float)((i * 0xabc98389u) >> 8) * 0x1p-24f,
-			      (float)((i * 0x8cb92ba7u) >> 8) * 0x1p-24f);
-}
 
 static volatile float keep;
 
@@ -43,13 +35,14 @@ static double time_once(lobe_microfacet_conductor p, lobe_vec3 wo, uint32_t n)
 	float sum = 0.0f;
 	const double start = bench_now();
 	for (uint32_t i = 0; i < n; i++) {
-		const lobe_sample s = lobe_microfacet_conductor_sample(p, wo, point(i));
+		const lobe_sample s = lobe_microfacet_conductor_sample(p, wo, lobe_recommend_u(i));
 		sum += s.pdf + s.weight.g;
 	}
 	keep = sum;
 	return bench_now() - start;
 }
 
+/* Variances are those of independent samples, though the points are a lattice's: they are averages over the cube. */
 static result measure(lobe_microfacet_conductor p, lobe_vec3 wo, uint32_t n)
 {
 	double seconds[RUNS], sum = 0.0, sum2 = 0.0, none = 0.0;
@@ -57,7 +50,7 @@ static result measure(lobe_microfacet_conductor p, lobe_vec3 wo, uint32_t n)
 	for (int k = 0; k < RUNS; k++)
 		seconds[k] = time_once(p, wo, n);
 	for (uint32_t i = 0; i < 4u * n; i++) {
-		const lobe_sample s = lobe_microfacet_conductor_sample(p, wo, point(i));
+		const lobe_sample s = lobe_microfacet_conductor_sample(p, wo, lobe_recommend_u(i));
 		const double w = (double)s.weight.g;
 		sum += w;
 		sum2 += w * w;
@@ -71,23 +64,6 @@ static result measure(lobe_microfacet_conductor p, lobe_vec3 wo, uint32_t n)
 	r.rejected = none / (4.0 * n);
 	r.efficiency = 1e3 / (r.variance * r.ns);
 	return r;
-}
-
-static FILE *open_csv(const char *path)
-{
-	FILE *f;
-	if (strcmp(path, "out/bench/strategies.csv") == 0) {
-		mkdir("out", 0777);
-		mkdir("out/bench", 0777);
-	}
-	f = fopen(path, "w");
-	if (!f) {
-		fprintf(stderr, "strategies: %s: %s\n", path, strerror(errno));
-		exit(1);
-	}
-	fprintf(f, "alpha,cos_o,strategy,ns_per_sample,spread_percent,mean,variance,rejected,efficiency_per_us,"
-		   "efficiency_of_cap\n");
-	return f;
 }
 
 int main(int argc, char **argv)
@@ -106,14 +82,19 @@ int main(int argc, char **argv)
 			return 2;
 		}
 	}
-	FILE *csv = open_csv(csv_path);
+	FILE *const csv = bench_create_file(csv_path);
+	if (!csv)
+		return 1;
+	fputs("alpha,cos_o,strategy,ns_per_sample,spread_percent,mean,variance,rejected,efficiency_per_us,"
+	      "efficiency_of_cap\n",
+	      csv);
 	printf("\nSampling strategies: a white GGX mirror, one thread, one sample after another. variance: of the "
 	       "weight.\n"
 	       "rejected: samples below the surface. efficiency: 1/(variance time); of cap: over that of the cap of "
 	       "2023.\n\n");
-	printf("%5s %5s  %-14s %8s %7s %8s %10s %9s %11s %8s\n", "alpha", "cos", "strategy", "time", "spread", "mean",
+	printf("%5s %5s  %-17s %8s %7s %8s %10s %9s %11s %8s\n", "alpha", "cos", "strategy", "time", "spread", "mean",
 	       "variance", "rejected", "efficiency", "of cap");
-	printf("%5s %5s  %-14s %8s %7s %8s %10s %9s %11s %8s\n", "", "", "", "ns", "%", "", "", "%", "1/us", "x");
+	printf("%5s %5s  %-17s %8s %7s %8s %10s %9s %11s %8s\n", "", "", "", "ns", "%", "", "", "%", "1/us", "x");
 	for (size_t a = 0; a < sizeof alphas / sizeof *alphas; a++)
 		for (size_t c = 0; c < sizeof cosines / sizeof *cosines; c++) {
 			const lobe_microsurface s = lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX),
@@ -125,7 +106,7 @@ int main(int argc, char **argv)
 				r[k] = measure(lobe_microfacet_conductor_make(s, white, k), wo, n);
 			for (lobe_uint k = 0; k < STRATEGIES; k++) {
 				const double of_cap = r[k].efficiency / r[LOBE_STRATEGY_VISIBLE_CAP].efficiency;
-				printf("%5.2f %5.2f  %-14s %8.1f %7.1f %8.4f %10.5f %9.2f %11.3f %8.3f\n",
+				printf("%5.2f %5.2f  %-17s %8.1f %7.1f %8.4f %10.5f %9.2f %11.3f %8.3f\n",
 				       (double)alphas[a], (double)cosines[c], names[k], r[k].ns, r[k].spread, r[k].mean,
 				       r[k].variance, 100.0 * r[k].rejected, r[k].efficiency, of_cap);
 				fprintf(csv, "%g,%g,%s,%.2f,%.2f,%.6f,%.6g,%.6f,%.6g,%.6g\n", (double)alphas[a],

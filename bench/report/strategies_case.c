@@ -4,22 +4,10 @@
 
 #include "pi.h"
 #include "strategies_estimate.h"
+#include "strategies_names.h"
 
 static const char *const names[STRATEGIES_TECHNIQUES] = {
-	"visible (default)",
-	"uniform",
-	"cosine",
-	"plain NDF",
-	"slopes 2014",
-	"ellipsoid 2018",
-	"cap 2023",
-	"bounded cap",
-	"V-cavity",
-	"hemisphere",
-	"light",
-	"balance",
-	"power",
-	"balance + bounded cap",
+	STRATEGIES_NAMES, "light", "balance", "power", "balance + bounded cap",
 };
 
 const char *strategies_name(int technique) { return names[technique]; }
