@@ -241,11 +241,11 @@ int bench_build_times(const char *program, const bench_device *devices, int coun
 	int ok = csv != NULL, rows = 0;
 	if (!ok)
 		return 0;
-	printf("\nOpenCL programs: build time by scene, medians in ms: creating the scene, and the first launch. cold:\n"
-	       "nothing kept. cached: a second process finds what the runtime keeps by itself. keeping: cold, and lobe\n"
-	       "puts the binary into LOBE_CACHE_DIR. kept: a second process finds that binary and nothing of the\n"
-	       "runtime's. again: a second scene of the same lobes in one process, with its launch. The source is the\n"
-	       "same %zu bytes for every scene; options leave lobes out.\n\n",
+	printf("\nOpenCL programs: build time by scene, medians in ms: creating the scene, and the first launch.\n"
+	       "cold: nothing kept. cached: a second process finds what the runtime keeps by itself. keeping: cold,\n"
+	       "and lobe puts the binary into LOBE_CACHE_DIR. kept: a second process finds that binary and nothing of\n"
+	       "the runtime's. again: a second scene of the same lobes in one process, with its launch. The source is\n"
+	       "the same %zu bytes for every scene; options leave lobes out.\n\n",
 	       strlen(lobe_opencl_source()));
 	printf("%-18s %-9s %4s", "scene", "device", "runs");
 	for (int k = 0; k < STARTS; k++)
@@ -260,7 +260,7 @@ int bench_build_times(const char *program, const bench_device *devices, int coun
 	fputs(",again_ms,cache_bytes,kept_bytes,source_bytes,options\n", csv);
 	for (int d = 0; d < count; d++) {
 		bench_build_figure coldest = {0, NULL, 0.0};
-		for (int i = 0; ok && i <= BENCH_OPEN; i++)
+		for (int i = 0; ok && i < BENCH_SCENES; i++)
 			if (bench_is_opencl(&devices[d]) && (lobe < 0 || lobe == i)) {
 				const size_t all = runs < RUNS_MAX ? runs : RUNS_MAX;
 				build_times t;

@@ -19,14 +19,16 @@ typedef struct {
 	bench_build_figure share, cached, kept;
 } bench_build_highest;
 
-/* Prints the table of each lobe alone and of all of them (lobe: that one alone, -1: all), by OpenCL device, and writes
- * it to path. Each build is a process of its own: program, run as bench_build_child wants it. runs: builds of each
- * kind, of which the median counts; only one of each once seconds have passed. 0 after a failure. highest: of zeros. */
+/* Prints the table of every scene of scenes.h - each lobe alone, all of them, and what leaves choices open - by OpenCL
+ * device, and writes it to path; lobe: of that one alone, -1: all. Each build is a process of its own: program, run as
+ * bench_build_child wants it. runs: builds of each kind, of which the median counts; only one of each once seconds have
+ * passed. 0 after a failure. highest: of zeros. */
 int bench_build_times(const char *program, const bench_device *devices, int count, int lobe, size_t runs,
 		      double seconds, const char *path, bench_build_highest *highest);
 
 /* The child: program --build-child CACHE KEPT DEVICE LOBE. CACHE: the folder in which OpenCL runtimes are to keep what
- * they compiled; KEPT: LOBE_CACHE_DIR, or "-" for none; LOBE: as BENCH_LOBE_*. Prints seconds. Its exit status. */
+ * they compiled; KEPT: LOBE_CACHE_DIR, or "-" for none; LOBE: as of bench_scene_create. Prints seconds. Its exit
+ * status. */
 int bench_build_child(char **arguments);
 
 #endif

@@ -10,11 +10,14 @@ enum {
 #undef LOBE_X
 	BENCH_LOBES,
 	BENCH_OPEN = BENCH_LOBES + 1,
-	BENCH_OPEN_GLASS
+	BENCH_OPEN_GLASS,
+	BENCH_SCENES
 };
 
-/* The lobe's name in lobes.def and its material. lobe: 0 .. BENCH_LOBES - 1. */
+/* The lobe's name in lobes.def, or what else a scene is called: 0 .. BENCH_SCENES - 1. */
 const char *bench_lobe_name(int lobe);
+
+/* Of lobe 0 .. BENCH_LOBES - 1. */
 lobe_bsdf bench_lobe_material(int lobe);
 
 /* A scene of that lobe alone, or of every lobe when it is BENCH_LOBES. BENCH_OPEN: of the material of
