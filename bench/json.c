@@ -1,8 +1,9 @@
 /* json.c - results as JSON. Names are lobe's own and hold nothing that would want escaping, but for the device's. */
+#define _POSIX_C_SOURCE 200809L
 #include "json.h"
 
-#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "machine.h"
 
@@ -39,16 +40,25 @@ static void put_row(FILE *out, const bench_plan *plan, const bench_result *r)
 		fprintf(out, "null}");
 }
 
-int bench_write_json(const bench_plan *plan, const bench_results *results, const char *path)
+FILE *bench_open_json(const char *path)
 {
-	FILE *out = strcmp(path, "-") == 0 ? stdout : bench_create_file(path);
+	if (strcmp(path, "-") != 0)
+		return bench_create_file(path);
+	fflush(stdout);
+	const int own = dup(STDOUT_FILENO);
+	FILE *const out = own >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0 ? fdopen(own, "w") : NULL;
 	if (!out)
-		return 0;
+		perror("throughput: standard output");
+	return out;
+}
+
+int bench_write_json(const bench_plan *plan, const bench_results *results, FILE *out)
+{
 	fprintf(out, "{\"results\": [");
 	for (size_t i = 0; i < results->count; i++) {
 		fprintf(out, i ? ",\n\t" : "\n\t");
 		put_row(out, plan, &results->result[i]);
 	}
 	fprintf(out, "\n]}\n");
-	return out == stdout ? fflush(out) == 0 : fclose(out) == 0;
+	return fclose(out) == 0;
 }

@@ -21,7 +21,7 @@ static const char help[] =
 	"  --runs N        timed runs of each (default 11), 1 to 1000\n"
 	"  --only TABLE    this table only: throughput, roofline, hand, layout, scaling, build or pruning\n"
 	"  --csv FILE      instead of out/bench/throughput.csv; those of the other tables lie beside it\n"
-	"  --json FILE     the table of throughput as JSON as well, - for the standard output\n"
+	"  --json FILE     the table of throughput as JSON as well; -: on the standard output, and the rest on the other\n"
 	"  --quick         a look that is no measurement: %d elements, 3 runs\n"
 	"  --help          this\n";
 

@@ -138,6 +138,9 @@ int main(int argc, char **argv)
 	const int status = bench_options_parse(&o, argc, argv);
 	if (status != 0)
 		return status == 2 ? 2 : 0;
+	FILE *const json = o.json ? bench_open_json(o.json) : NULL;
+	if (o.json && !json)
+		return 1;
 	bench_print_machine(stdout);
 	const int count = bench_devices_open(devices, o.device);
 	if (count == 0 && o.device)
@@ -156,8 +159,8 @@ int main(int argc, char **argv)
 		ok = ok && bench_measure(&plan, &results);
 	if (o.throughput)
 		ok = ok && report(&plan, &results, o.csv);
-	if (o.throughput && o.json)
-		ok = ok && bench_write_json(&plan, &results, o.json);
+	if (json)
+		ok = bench_write_json(&plan, &results, json) && ok;
 	if (o.roofline && native)
 		ok = ok && bench_roofline(o.lobe, plan.sizes[0], o.runs, objects, roofline_csv);
 	if (o.hand && native && (o.lobe < 0 || o.lobe == BENCH_LOBE_GGX_CONDUCTOR))
