@@ -83,7 +83,9 @@ typedef enum {
 	STABILITY_COSINE, /* ... the cosine to the facet: light leaves eta = 1000 by a cone of 1 - cos = 5e-7 ... */
 	STABILITY_RIM, /* ... the two points of a sphere, opposite near its rim, that add up to a visible normal ... */
 	STABILITY_FACETS, /* ... cosines, or the smooth surface's value, in a sum over facets (microfacet_diffuse.h) ... */
-	STABILITY_LOGARITHM, /* ... the logarithm that a beta function is the exponential of (core/beta.h). */
+	STABILITY_LOGARITHM, /* ... the logarithm that a beta function is the exponential of (core/beta.h) ... */
+	STABILITY_SHAPE, /* ... or the density and hidden area of a distribution: what its header says that they are good for,
+			  * and of Beckmann's the exponent of a tail. */
 	STABILITY_CLASSES
 } stability_class;
 
@@ -101,7 +103,8 @@ typedef enum {
 	X("cosine")                                                                                                    \
 	X("rim")                                                                                                       \
 	X("facets")                                                                                                    \
-	X("logarithm")
+	X("logarithm")                                                                                                 \
+	X("shape")
 extern const char *const stability_class_names[STABILITY_CLASSES];
 
 /* error: |value - exact|. floor, and the part of it that the directions alone make; floor_of_one: the same with a

@@ -97,7 +97,9 @@ static const char *const meanings[STABILITY_CLASSES] = {
 	"cos = 5e-7",
 	"two points of the unit sphere, opposite near its rim, that add up to a visible normal",
 	"cosines, or the smooth surface's value, in a sum over facets (`lobes/microfacet_diffuse.h`)",
-	"a beta function by its logarithm (`core/beta.h`)"};
+	"a beta function by its logarithm (`core/beta.h`)",
+	"density and hidden area of a distribution: what headers state of tabulated ones, 5e-6 together, and the "
+	"exponents of Beckmann's tails"};
 
 /* The lobes that have a class, most cases first, as far as text is long. */
 static void name_lobes(const report_table *t, int class, char *text, size_t size)

@@ -168,6 +168,40 @@ static void glass(stability_of_one *most, const stability_case *c, stability_que
 	}
 }
 
+/* The square of a facet's slope in widths. */
+static double steepness(lobe_vec3 f) { return (double)lobe_vec3_xy2(f) / ((double)f.z * (double)f.z); }
+
+/* -log of what is seen of a Gaussian surface from behind its mean plane. */
+static double tail(lobe_vec3 v)
+{
+	const double z = (double)v.z;
+	return z < 0.0 ? z * z / (double)lobe_vec3_xy2(v) : 0.0;
+}
+
+/* Of a surface that the textbook does not have: tabulated distributions are as good as their headers say (gtr.h and its
+ * like: density 2e-6, hidden 3e-6, which are 80 roundings, 16 times this), a Gaussian's tails as their exponents. e: far
+ * index over near one. */
+static void shape(stability_of_one *most, double value, lobe_microsurface s, const long double *x, long double e)
+{
+	const float side = x[2] > 0.0L ? 1.0f : -1.0f;
+	const int across = x[2] * x[5] < 0.0L;
+	const long double e_r = across ? e : 1.0L;
+	lobe_vec3 o, i, h;
+	if (s.distribution.ndf != LOBE_NDF_BECKMANN && s.distribution.ndf != LOBE_NDF_GGX) {
+		take(most, value * 5.0 * 0x1p-24, STABILITY_SHAPE);
+		return;
+	}
+	if (s.distribution.ndf != LOBE_NDF_BECKMANN)
+		return;
+	o = lobe_vec3_make(side * (float)x[0], side * (float)x[1], side * (float)x[2]);
+	i = lobe_vec3_make(side * (float)x[3], side * (float)x[4], side * (float)x[5]);
+	h = lobe_vec3_make(side * (float)(x[0] + e_r * x[3]), side * (float)(x[1] + e_r * x[4]),
+			   side * (float)(x[2] + e_r * x[5]));
+	const double exponents = steepness(lobe_linear_facet(s.map, h)) + tail(lobe_linear_direction(s.map, o)) +
+				 (across ? 0.0 : tail(lobe_linear_direction(s.map, i)));
+	take(most, value * exponents * 0x1p-24, STABILITY_SHAPE);
+}
+
 static stability_class reflectance_of(lobe_uint kind)
 {
 	switch (kind) {
@@ -204,11 +238,14 @@ stability_of_one stability_of_one_make(const stability_case *c, stability_questi
 		for (int k = 2; k < 5; k++)
 			mirror[6 + k] = 1.0L;
 		take(&most, stability_double_build(q, mirror) * 0x1p-24, STABILITY_METAL);
+		shape(&most, stability_double_build(q, x), stability_bsdf(c).as.microfacet_conductor.surface, x, 1.0L);
 		return most;
 	case LOBE_KIND_MICROFACET_DIELECTRIC:
 		if (stability_is_textbook(c))
 			break;
 		glass(&most, c, q, x);
+		shape(&most, stability_double_build(q, x), stability_bsdf(c).as.microfacet_dielectric.surface, x,
+		      x[2] > 0.0L ? x[6 + 2] : 1.0L / x[6 + 2]);
 		return most;
 	default:
 		break;
