@@ -103,9 +103,17 @@
 #define LOBE_TABLE_plain(lobe) __global const lobe_##lobe *restrict table
 #define LOBE_TABLE_tabled(lobe) __global const lobe_##lobe *restrict table, __global const float *restrict tables
 #define LOBE_AT_plain(lobe, i) table[i]
-#define LOBE_AT_tabled(lobe, i)                                                                                        \
-	lobe_##lobe##_with_table(table[i], lobe_table_at((ulong)tables +                                               \
-							 lobe_table_address(lobe_##lobe##_table(table[i]))))
+#define LOBE_AT_tabled(lobe, i) lobe_tabled_##lobe(table[i], (ulong)tables)
+#define LOBE_X(NAME, lobe, kind)
+#define LOBE_X_TABLED(NAME, lobe, kind)                                                                                \
+	LOBE_FN lobe_##lobe lobe_tabled_##lobe(lobe_##lobe p, ulong tables)                                            \
+	{                                                                                                              \
+		const lobe_table t = p.surface.distribution.table;                                                     \
+		p.surface.distribution.table = lobe_table_at(tables + lobe_table_address(t));                          \
+		return p;                                                                                              \
+	}
+#include "../include/lobe/lobes/lobes.def"
+#undef LOBE_X
 
 /* --- kernels --- */
 

@@ -1,14 +1,12 @@
 /* tables.c - the tables that a scene's materials carry (core/table.h), gathered into one flat buffer. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "internal.h"
 
-/* Words of the longest table. */
-#define TABLE_MAX ((size_t)1 << 24)
-
-/* Whether a distribution of normals samples by a table (microfacet/profile.h). */
-static int needs_table(lobe_uint ndf)
+/* Words of the table that a distribution of normals samples by (microfacet/profile.h); 0: it needs none. */
+static size_t words_needed(lobe_uint ndf)
 {
 	switch (ndf) {
 #define LOBE_NDF_FIXED(NAME, name, number)
@@ -16,69 +14,66 @@ static int needs_table(lobe_uint ndf)
 #include "lobe/microfacet/distributions.def"
 #undef LOBE_NDF_FIXED
 #undef LOBE_NDF_SHAPED
+		return LOBE_PROFILE_WORDS;
+	default:
+		return 0;
+	}
+}
+
+/* The distribution that lobe_<name>'s parameters hold, or NULL. */
+static lobe_distribution *distribution_of(int index, void *params)
+{
+	switch (index) {
+#define LOBE_X(NAME, name, kind)
+#define LOBE_X_TABLED(NAME, name, kind)                                                                                \
+	case LOBE_INDEX_##NAME:                                                                                        \
+		return &((lobe_##name *)params)->surface.distribution;
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
+	default:
+		return NULL;
+	}
+}
+
+int lobe_is_tabled(int index)
+{
+	switch (index) {
+#define LOBE_X(NAME, name, kind)
+#define LOBE_X_TABLED(NAME, name, kind) case LOBE_INDEX_##NAME:
+#include "lobe/lobes/lobes.def"
+#undef LOBE_X
 		return 1;
 	default:
 		return 0;
 	}
 }
 
-typedef struct {
-	int tabled;
-	int (*needs)(const void *params);
-	lobe_table (*get)(const void *params);
-	void (*set)(void *params, lobe_table t);
-} access;
-
-/* clang-format off */
-#define LOBE_X(NAME, name, kind)
-#define LOBE_X_TABLED(NAME, name, kind)                                                                                \
-	static int needs_##name(const void *params)                                                                    \
-	{                                                                                                              \
-		return needs_table(((const lobe_##name *)params)->surface.distribution.ndf);                           \
-	}                                                                                                              \
-	static lobe_table get_##name(const void *params)                                                               \
-	{                                                                                                              \
-		return lobe_##name##_table(*(const lobe_##name *)params);                                              \
-	}                                                                                                              \
-	static void set_##name(void *params, lobe_table t)                                                             \
-	{                                                                                                              \
-		*(lobe_##name *)params = lobe_##name##_with_table(*(const lobe_##name *)params, t);                    \
-	}
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-
-static const access lobes[LOBE_COUNT] = {
-#define LOBE_X(NAME, name, kind) {0, NULL, NULL, NULL},
-#define LOBE_X_TABLED(NAME, name, kind) {1, needs_##name, get_##name, set_##name},
-#include "lobe/lobes/lobes.def"
-#undef LOBE_X
-};
-/* clang-format on */
-
-int lobe_is_tabled(int index) { return lobes[index].tabled; }
-
 static const float *words_at(lobe_table t) { return (const float *)(uintptr_t)lobe_table_address(t); }
 
 lobe_status lobe_check_table(const lobe_bsdf *materials, size_t i)
 {
-	const int index = lobe_index_of_kind(materials[i].kind);
-	if (index == LOBE_INDEX_NONE || !lobes[index].tabled)
-		return LOBE_OK;
-	const lobe_table t = lobes[index].get(&materials[i].as);
-	if (lobe_table_address(t) == 0) {
-		if (!lobes[index].needs(&materials[i].as))
-			return LOBE_OK;
+	lobe_bsdf material = materials[i];
+	const int index = lobe_index_of_kind(material.kind);
+	const lobe_distribution *const d = distribution_of(index, &material.as);
+	const size_t words = d ? words_needed(d->ndf) : 0;
+	if (words == 0)
+		return LOBE_OK; /* a handle that nobody asks for is not looked at */
+	const uint64_t address = lobe_table_address(d->table);
+	if (address == 0 || address % sizeof(float) != 0 || address > UINTPTR_MAX)
 		return lobe_fail(LOBE_ERROR_PARAMETER,
-				 "materials[%zu]: the distribution of lobe_%s needs a table and has none; those of "
+				 "materials[%zu]: the distribution of lobe_%s needs a table and has %s; those of "
 				 "profile_table.h come with theirs",
-				 i, lobe_param_name[index]);
-	}
-	const double length = (double)*words_at(t);
-	if (length >= 1.0 && length <= (double)TABLE_MAX && length == (double)(size_t)length)
-		return LOBE_OK;
-	return lobe_fail(LOBE_ERROR_PARAMETER,
-			 "materials[%zu]: the table of lobe_%s begins with %g, which is not the length of a table", i,
-			 lobe_param_name[index], length);
+				 i, lobe_param_name[index], address == 0 ? "none" : "something else");
+	const float *const table = words_at(d->table);
+	if (table[0] != (float)words)
+		return lobe_fail(LOBE_ERROR_PARAMETER,
+				 "materials[%zu]: the table of lobe_%s begins with %g, not with its length %zu", i,
+				 lobe_param_name[index], (double)table[0], words);
+	for (size_t k = 1; k < words; k++)
+		if (!isfinite(table[k]))
+			return lobe_fail(LOBE_ERROR_PARAMETER, "materials[%zu]: word %zu of the table of lobe_%s is %g",
+					 i, k, lobe_param_name[index], (double)table[k]);
+	return LOBE_OK;
 }
 
 /* A table of the materials and its copy's place in the buffer. */
@@ -103,22 +98,29 @@ static const copy *find_or_add(copy *copies, size_t *count, size_t *words, lobe_
 	return c;
 }
 
+/* Of material i of a lobe's own. */
+static lobe_distribution *distribution_at(const lobe_scene *scene, int lobe, size_t i)
+{
+	return distribution_of(lobe, (unsigned char *)scene->table[lobe].params + i * lobe_param_size[lobe]);
+}
+
 int lobe_tables_gather(lobe_scene *scene)
 {
 	size_t params = 0, count = 0, words = 1;
 	for (int lobe = 0; lobe < LOBE_COUNT; lobe++)
-		params += lobes[lobe].tabled ? scene->table[lobe].count : 0;
+		params += lobe_is_tabled(lobe) ? scene->table[lobe].count : 0;
 	if (params == 0)
 		return 1;
 	copy *const copies = malloc(params * sizeof *copies);
 	if (!copies)
 		return 0;
 	for (int lobe = 0; lobe < LOBE_COUNT; lobe++) {
-		for (size_t i = 0; lobes[lobe].tabled && i < scene->table[lobe].count; i++) {
-			void *const p = (unsigned char *)scene->table[lobe].params + i * lobe_param_size[lobe];
-			const lobe_table t = lobes[lobe].get(p);
-			if (lobe_table_address(t) != 0)
-				lobes[lobe].set(p, lobe_table_at(sizeof(float) * find_or_add(copies, &count, &words, t)->at));
+		for (size_t i = 0; lobe_is_tabled(lobe) && i < scene->table[lobe].count; i++) {
+			lobe_distribution *const d = distribution_at(scene, lobe, i);
+			uint64_t at = 0;
+			if (words_needed(d->ndf))
+				at = sizeof(float) * find_or_add(copies, &count, &words, d->table)->at;
+			d->table = lobe_table_at(at);
 		}
 	}
 	scene->tables = calloc(words, sizeof *scene->tables);
@@ -133,9 +135,9 @@ int lobe_tables_gather(lobe_scene *scene)
 void lobe_tables_rebase(lobe_scene *scene, uint64_t base)
 {
 	for (int lobe = 0; lobe < LOBE_COUNT; lobe++) {
-		for (size_t i = 0; lobes[lobe].tabled && i < scene->table[lobe].count; i++) {
-			void *const p = (unsigned char *)scene->table[lobe].params + i * lobe_param_size[lobe];
-			lobes[lobe].set(p, lobe_table_at(base + lobe_table_address(lobes[lobe].get(p))));
+		for (size_t i = 0; lobe_is_tabled(lobe) && i < scene->table[lobe].count; i++) {
+			lobe_distribution *const d = distribution_at(scene, lobe, i);
+			d->table = lobe_table_at(base + lobe_table_address(d->table));
 		}
 	}
 }

@@ -55,7 +55,8 @@ typedef struct lobe_scene lobe_scene;
 
 /* Devices that backend "native" (1) or "opencl" (all devices of all platforms; 0 without a runtime) offers. A library
  * built without a backend (make LOBE_NATIVE=0, make LOBE_OPENCL=0) has 0 of it; opening one is a LOBE_ERROR_DEVICE that
- * says so. */
+ * says so. LOBE_ERROR_ARGUMENT: a NULL; LOBE_ERROR_DEVICE: no such backend; LOBE_ERROR_OPENCL, LOBE_ERROR_MEMORY: the
+ * runtime's own. */
 LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
 
 /* Opens a device by name:
@@ -78,7 +79,10 @@ LOBE_API lobe_status lobe_device_count(const char *backend, size_t *count);
  * first place. Such a device takes no cl_mem, nor does "opencl:all".
  *
  * A native device runs the widest instruction set of "baseline", "avx2" and "avx512" that was compiled in and that the
- * processor has; the environment variable LOBE_ISA names a narrower one. Results do not depend on it. */
+ * processor has; the environment variable LOBE_ISA, if not empty, names a narrower one. Results do not depend on it.
+ *
+ * LOBE_ERROR_ARGUMENT: a NULL; LOBE_ERROR_DEVICE: no such name or device; LOBE_ERROR_MEMORY, LOBE_ERROR_OPENCL. On
+ * failure *out is left as it was. */
 LOBE_API lobe_status lobe_device_open(lobe_device **out, const char *name);
 
 /* What the device is, for people: "native, avx2, 2 threads", "opencl:0, PLATFORM, DEVICE". Valid until it is closed. */
@@ -88,21 +92,27 @@ LOBE_API const char *lobe_device_name(const lobe_device *device);
  * good, otherwise. Valid until the device is closed. */
 LOBE_API const char *lobe_device_lost(const lobe_device *device);
 
-/* Releases the device. Its scenes must have been destroyed before. Null does nothing. */
+/* Releases the device, or leaves that to the last of its scenes to be destroyed: they hold it. Null does nothing. */
 LOBE_API void lobe_device_close(lobe_device *device);
 
-/* Takes a copy of materials[0..count), each checked field by field, and prepares the device for the kinds of lobe in it
- * and no others. On OpenCL the program is built here, unless this device has already built one for the same kinds.
+/* Takes a copy of materials[0..count) and of the tables that they carry (core/table.h), and prepares the device for the
+ * kinds of lobe in it and no others. Each field is checked, and that those which make prepares belong to the others: to
+ * change a material make it anew. On OpenCL the program is built here, unless this device has already built one for the
+ * same kinds.
+ *
+ * LOBE_ERROR_ARGUMENT: a NULL, no material; LOBE_ERROR_PARAMETER: a field, named in the message; LOBE_ERROR_BUILD,
+ * LOBE_ERROR_MEMORY, LOBE_ERROR_OPENCL. On failure *out is left as it was.
  *
  * Built OpenCL programs are kept between runs in a folder: $LOBE_CACHE_DIR, else $XDG_CACHE_HOME/lobe, else
- * ~/.cache/lobe; LOBE_CACHE_DIR="" keeps none. They are found by source, options, device and driver. A file that is
- * damaged, not the user's own or refused by the driver is passed over, a folder that cannot be written does no harm,
- * and what has not been used for longest goes when all exceed 64 MiB. Processes may share the folder. PoCL has a cache
- * of its own, and takes longer to hand out a binary than to build a program: there ours is used only when
+ * ~/.cache/lobe; LOBE_CACHE_DIR="" keeps none. They are written when the program is built, or where kernels are
+ * compiled at their first use (PoCL) after the first batch, and found by source, options, device and driver. A file
+ * that is damaged, not the user's own or refused by the driver is passed over, a folder that cannot be written does no
+ * harm, and what has not been used for longest goes when all exceed 64 MiB. Processes may share the folder. PoCL has a
+ * cache of its own, and takes longer to hand out a binary than to build a program: there ours is used only when
  * LOBE_CACHE_DIR is set. */
 LOBE_API lobe_status lobe_scene_create(lobe_scene **out, lobe_device *device, const lobe_bsdf *materials, size_t count);
 
-/* Null does nothing. */
+/* Frees the scene, and its device if that is closed and this was the last. Null does nothing. */
 LOBE_API void lobe_scene_destroy(lobe_scene *scene);
 
 /* Bytes from one element of an array to the next, multiples of 4. 0: the array is packed, 4 bytes apart. */
@@ -141,10 +151,11 @@ typedef struct {
 	lobe_strides stride;
 } lobe_batch;
 
-/* f |cos theta_i| and the pdf, whichever is asked for. At least one of f and pdf must be. */
+/* f |cos theta_i| and the pdf, whichever is asked for. At least one of f and pdf must be. LOBE_ERROR_ARGUMENT names the
+ * array; LOBE_ERROR_MEMORY and LOBE_ERROR_OPENCL are the device's, after which outputs may be written in part. */
 LOBE_API lobe_status lobe_scene_eval(lobe_scene *scene, const lobe_batch *batch);
 
-/* sample_wi, weight, sample_pdf and event, whichever are asked for. At least one must be. */
+/* sample_wi, weight, sample_pdf and event, whichever are asked for. At least one must be. The same statuses. */
 LOBE_API lobe_status lobe_scene_sample(lobe_scene *scene, const lobe_batch *batch);
 
 /* A batch that runs behind the caller. */
@@ -209,6 +220,7 @@ typedef struct {
 	struct _cl_mem *sample_wi[3], *weight[3], *sample_pdf, *event;
 } lobe_cl_batch;
 
+/* lobe_scene_eval and lobe_scene_sample of such buffers. LOBE_ERROR_ARGUMENT too for a device that takes none. */
 LOBE_API lobe_status lobe_scene_eval_cl(lobe_scene *scene, const lobe_cl_batch *batch);
 LOBE_API lobe_status lobe_scene_sample_cl(lobe_scene *scene, const lobe_cl_batch *batch);
 

@@ -66,6 +66,31 @@ LOBE_FN lobe_real lobe_bsdf_pdf(lobe_bsdf b, lobe_vec3 wo, lobe_vec3 wi)
 	}
 }
 
+/* lobe_bsdf_eval and lobe_bsdf_pdf of one pair of directions, which share most of their work: what multiple importance
+ * sampling asks of a light's direction. The same bits as each alone. */
+typedef struct {
+	lobe_rgb f;
+	lobe_real pdf;
+} lobe_bsdf_value;
+
+LOBE_FN lobe_bsdf_value lobe_bsdf_eval_pdf(lobe_bsdf b, lobe_vec3 wo, lobe_vec3 wi)
+{
+	lobe_bsdf_value v;
+	switch (b.kind) {
+#define LOBE_X(NAME, name, value)                                                                                      \
+	case LOBE_KIND_##NAME:                                                                                         \
+		v.f = lobe_##name##_eval(b.as.name, wo, wi);                                                           \
+		v.pdf = lobe_##name##_pdf(b.as.name, wo, wi);                                                          \
+		return v;
+#include "lobes/lobes.def"
+#undef LOBE_X
+	default:
+		v.f = lobe_rgb_make(LOBE_R(0.0), LOBE_R(0.0), LOBE_R(0.0));
+		v.pdf = LOBE_R(0.0);
+		return v;
+	}
+}
+
 /* A direction wi for wo from u, each of its three numbers in [0,1). */
 LOBE_FN lobe_sample lobe_bsdf_sample(lobe_bsdf b, lobe_vec3 wo, lobe_vec3 u)
 {

@@ -5,7 +5,8 @@
  *	if (lobe_distribution_gtr(&d, table, LOBE_PROFILE_WORDS, 1.5f, 0.2f) != LOBE_OK)
  *		puts(lobe_error_message());
  *
- * The table belongs to the caller, who keeps it unchanged as long as d or anything made with it is used. It depends on
+ * The table belongs to the caller, who keeps it unchanged as long as functions of d or of a lobe made with it are
+ * called; a scene keeps a copy from its creation on. It depends on
  * the distribution alone, not on the stretch or map that is put on it. Making one takes some milliseconds, in double
  * precision, and allocates a megabyte or so meanwhile.
  *

@@ -27,8 +27,7 @@
 #ifndef LOBE_RECOMMEND_H
 #define LOBE_RECOMMEND_H
 
-#include "core/frame.h"
-#include "core/warp.h"
+#include "light_shape.h"
 #include "microfacet/scatter.h"
 
 enum { LOBE_RECOMMEND_POINTS = 512 };
@@ -36,53 +35,6 @@ enum { LOBE_RECOMMEND_POINTS = 512 };
 /* What to draw directions from. With both, a direction of each, weighted by the balance or the power heuristic (Veach
  * 1997). Stable across versions. */
 enum { LOBE_SAMPLE_LOBE = 0, LOBE_SAMPLE_LIGHT = 1, LOBE_SAMPLE_BOTH_BALANCE = 2, LOBE_SAMPLE_BOTH_POWER = 3 };
-
-/* disk, glow, in [0, 1], at most 1 together: their shares of the light. solid_angle [sr], in (0, 2 pi]: of the disk,
- * which has a sharp edge. exponent, >= 0: the n of a glow that falls off like ((1 + cos)/2)^n. slope, >= -1: the rest
- * is a sky of radiance 1 + slope cos(angle to the surface's normal): 2 for the CIE's overcast one, -2/3 for one three
- * times as bright at the horizon as overhead. */
-typedef struct {
-	lobe_vec3 axis;
-	lobe_real disk, solid_angle, glow, exponent, slope;
-} lobe_light_shape;
-
-/* A sky alone; 0: the same from everywhere above. */
-LOBE_FN lobe_light_shape lobe_light_shape_sky(lobe_real slope)
-{
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	lobe_light_shape s;
-	s.axis = lobe_vec3_make(zero, zero, one);
-	s.disk = s.glow = s.exponent = zero;
-	s.solid_angle = one;
-	s.slope = slope;
-	return s;
-}
-
-/* A sun or a lamp; the rest comes evenly from above. */
-LOBE_FN lobe_light_shape lobe_light_shape_disk(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
-{
-	lobe_light_shape s = lobe_light_shape_sky(LOBE_R(0.0));
-	s.axis = axis;
-	s.disk = share;
-	s.solid_angle = solid_angle;
-	return s;
-}
-
-/* The same with a glow around it: a veil, a window. solid_angle [sr]: of a uniform light as concentrated, (integral of
- * L)^2 over integral of L^2, which is 4 pi (2 n + 1)/(n + 1)^2. */
-LOBE_FN lobe_light_shape lobe_light_shape_with_glow(lobe_light_shape s, lobe_real solid_angle, lobe_real share)
-{
-	const lobe_real q = lobe_max(LOBE_R(2.0) * LOBE_2PI / solid_angle, LOBE_R(1.0));
-	s.glow = share;
-	s.exponent = q - LOBE_R(1.0) + lobe_sqrt(q * (q - LOBE_R(1.0)));
-	return s;
-}
-
-LOBE_FN lobe_light_shape lobe_light_shape_glow(lobe_vec3 axis, lobe_real solid_angle, lobe_real share)
-{
-	const lobe_light_shape s = lobe_light_shape_disk(axis, LOBE_R(1.0), LOBE_R(0.0));
-	return lobe_light_shape_with_glow(s, solid_angle, share);
-}
 
 /* What a sample costs, in any unit: from the lobe by each strategy, from the light, and what weighting adds to the
  * two. */
@@ -103,7 +55,8 @@ LOBE_FN lobe_recommend_cost lobe_recommend_cost_samples(void)
 }
 
 /* from: LOBE_SAMPLE_*. strategy: LOBE_STRATEGY_*, also where the lobe is not drawn from (then VISIBLE). deviation:
- * expected standard deviation of one sample (of BOTH: a direction of each) over its mean. */
+ * expected standard deviation of one sample (of BOTH: a direction of each) over its mean; 0 also for a light that the
+ * lobe does not see; -1: no answer, as the light or the surface is none. */
 typedef struct {
 	lobe_uint strategy, from;
 	lobe_real deviation;
@@ -153,36 +106,6 @@ LOBE_FN int lobe_recommend_looks_at(int strategy)
 LOBE_FN int lobe_recommend_covered(int k, lobe_microsurface s)
 {
 	return (k != LOBE_STRATEGY_UNIFORM) & (k != LOBE_STRATEGY_COSINE) & !lobe_strategy_borrows_ggx((lobe_uint)k, s);
-}
-
-/* With which the light's directions are drawn: its radiance over all of its power [1/sr]. */
-LOBE_FN lobe_real lobe_light_shape_density(lobe_light_shape l, lobe_vec3 w)
-{
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	/* |w - axis|^2 = 2 (1 - cos) = solid angle/pi at the edge; |w + axis|^2 = 2 (1 + cos) */
-	const lobe_vec3 chord = lobe_vec3_fma(-one, l.axis, w), other = lobe_vec3_add(l.axis, w);
-	const int inside = lobe_dot(chord, chord) <= l.solid_angle * LOBE_INV_PI;
-	const lobe_real n = l.exponent;
-	const lobe_real glow =
-		(n + one) * (LOBE_R(0.25) * LOBE_INV_PI) * lobe_pow(LOBE_R(0.25) * lobe_dot(other, other), n);
-	const lobe_real sky = lobe_fma(l.slope, w.z, one) / (LOBE_2PI * lobe_fma(LOBE_R(0.5), l.slope, one));
-	const lobe_real rest = w.z > zero ? (one - l.disk - l.glow) * sky : zero;
-	return lobe_fma(l.glow, glow, lobe_fma(l.disk, inside ? one / l.solid_angle : zero, rest));
-}
-
-LOBE_FN lobe_vec3 lobe_light_shape_draw(lobe_light_shape l, lobe_vec3 u)
-{
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0), two = LOBE_R(2.0);
-	/* 1 - cos of the point at fraction u.y, and z from z + slope z^2/2 = c. */
-	const lobe_real disk = u.y * l.solid_angle / LOBE_2PI;
-	const lobe_real glow = two * (one - lobe_pow(one - u.y, one / (l.exponent + one)));
-	const lobe_real c = u.y * lobe_fma(LOBE_R(0.5), l.slope, one);
-	const lobe_real z = lobe_min(two * c / (one + lobe_sqrt(lobe_max(lobe_fma(two * l.slope, c, one), zero))), one);
-	const int around = u.z < l.disk + l.glow;
-	const lobe_real height = u.z < l.disk ? disk : (around ? glow : one - z);
-	/* The rim of a cap of this height. */
-	const lobe_vec3 w = lobe_spherical_cap(lobe_vec2_make(u.x, one), height);
-	return around ? lobe_frame_to_world(lobe_frame_from_normal(l.axis), w) : w;
 }
 
 /* Point i of a lattice that fills the cube evenly (Roberts 2018, "The unreasonable effectiveness of quasirandom
@@ -357,7 +280,7 @@ LOBE_FN_APART lobe_recommendation lobe_recommend_answer(lobe_recommend_sums s, l
 	lobe_recommendation best;
 	best.strategy = LOBE_STRATEGY_VISIBLE;
 	best.from = LOBE_SAMPLE_LIGHT;
-	best.deviation = zero;
+	best.deviation = s.mean == zero ? zero : -one;
 	lobe_real least = -one;
 	for (int i = 0; i < LOBE_RECOMMEND_TECHNIQUES; i++) {
 		/* VISIBLE, BOUNDED_CAP, then what is left. */
@@ -389,11 +312,17 @@ LOBE_FN_APART lobe_recommendation lobe_recommend_answer(lobe_recommend_sums s, l
 	return best;
 }
 
-/* surface: of the lobe. wo: unit, above the surface. */
+/* surface: of the lobe. wo: unit, above the surface; for one that is not, or where a parameter is no number or outside
+ * its domain, there is no answer (deviation -1). */
 LOBE_FN_APART lobe_recommendation lobe_recommend_strategy(lobe_microsurface surface, lobe_vec3 wo,
 							  lobe_light_shape light, lobe_recommend_cost cost)
 {
-	return lobe_recommend_answer(lobe_recommend_integrate(surface, wo, light), surface, cost);
+	const lobe_real numbers = lobe_microsurface_params(surface) + lobe_vec3_sum(wo) + lobe_vec3_sum(light.axis) +
+				  light.disk + light.glow + light.exponent + light.slope;
+	lobe_recommendation r = lobe_recommend_answer(lobe_recommend_integrate(surface, wo, light), surface, cost);
+	if (!(lobe_is_number(numbers) & (wo.z > LOBE_R(0.0)) & (light.solid_angle > LOBE_R(0.0))))
+		r.deviation = LOBE_R(-1.0);
+	return r;
 }
 
 #endif

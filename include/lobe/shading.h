@@ -21,6 +21,7 @@
 #include "microfacet/beckmann.h"
 #include "microfacet/distribution.h"
 #include "microfacet/smith.h"
+#include "recommend.h"
 #endif
 #include "bsdf.h"
 

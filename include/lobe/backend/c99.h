@@ -10,7 +10,12 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#if defined(__cplusplus) && __cplusplus < 201703L && defined(__STRICT_ANSI__)
+#error "lobe's constants are hexadecimal: C++ has them from C++17 on (-std=c++17)"
+#endif
+
+/* 16 and 32 are 0 in a compiler that has types narrower than float, or as narrow. */
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 && FLT_EVAL_METHOD != 32
 #error "lobe needs float arithmetic in float: on 32-bit x86 compile with -msse2 -mfpmath=sse"
 #endif
 
@@ -25,7 +30,6 @@
 typedef uint32_t lobe_uint;
 typedef int32_t lobe_int;
 typedef uint64_t lobe_uint64;
-typedef int64_t lobe_int64;
 
 /* Word i of the table (core/table.h) at that address. */
 #define LOBE_FETCH_FLOAT(address, i) (((const float *)(uintptr_t)(address))[i])

@@ -11,7 +11,6 @@ typedef float lobe_real;
 typedef uint lobe_uint;
 typedef int lobe_int;
 typedef ulong lobe_uint64;
-typedef long lobe_int64;
 
 #define LOBE_R(x)     x##f
 #define LOBE_REAL_MAX 0x1.fffffep+127f

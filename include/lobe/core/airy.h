@@ -26,6 +26,7 @@ typedef struct {
 	lobe_real thickness, index;
 } lobe_film;
 
+/* thickness: d [nm]. index: over that of the medium outside. Neither is checked here; a scene does. */
 LOBE_FN lobe_film lobe_film_make(lobe_real thickness, lobe_real index)
 {
 	lobe_film f;
@@ -42,7 +43,7 @@ typedef struct {
 
 LOBE_FN lobe_film_top lobe_film_top_make(lobe_real c, lobe_real index)
 {
-	const lobe_fresnel_interface m = lobe_fresnel_interface_unit(c, index);
+	const lobe_fresnel_interface m = lobe_fresnel_interface_unit(c, (LOBE_R(1.0) - c) * (LOBE_R(1.0) + c), index);
 	const lobe_fresnel_amplitudes r = lobe_fresnel_amplitudes_make(m);
 	const lobe_real one = LOBE_R(1.0);
 	const lobe_real cg4 = LOBE_R(4.0) * m.c * m.g;
@@ -100,9 +101,9 @@ LOBE_FN lobe_film_bottoms lobe_film_bottoms_conductor(lobe_film_top top, lobe_re
 	const lobe_real zero = LOBE_R(0.0);
 	const lobe_fresnel_conductor_root m = lobe_fresnel_conductor_root_make(top.c * top.c, n, k);
 	const lobe_real large = lobe_sqrt(LOBE_R(0.5) * m.sum);
-	const lobe_real small = LOBE_R(0.5) * m.nk2 / large;
+	const lobe_real lesser = LOBE_R(0.5) * m.nk2 / large;
 	const int thick = m.t >= zero;
-	const lobe_complex root = lobe_complex_make(thick ? large : small, thick ? small : large);
+	const lobe_complex root = lobe_complex_make(thick ? large : lesser, thick ? lesser : large);
 	const lobe_complex n2_g = lobe_complex_make((n - k) * (n + k) * top.g, m.nk2 * top.g);
 	lobe_film_bottoms b;
 	b.s = lobe_film_bottom_from_real(top.g, root);
@@ -181,10 +182,13 @@ LOBE_FN lobe_airy lobe_airy_sum(lobe_real r12, lobe_real t12, lobe_film_bottom b
 	return a;
 }
 
+/* How much longer the way through the film and back is [nm]. */
+LOBE_FN lobe_real lobe_film_opd(lobe_film film, lobe_film_top top) { return (film.thickness + film.thickness) * top.g; }
+
 /* e^(i delta) */
 LOBE_FN lobe_complex lobe_film_turn(lobe_film film, lobe_film_top top, lobe_real wavelength)
 {
-	const lobe_sincos t = lobe_sincos_2pi((film.thickness + film.thickness) * top.g / wavelength);
+	const lobe_sincos t = lobe_sincos_2pi(lobe_film_opd(film, top) / wavelength);
 	return lobe_complex_make(t.c, t.s);
 }
 

@@ -37,16 +37,16 @@ LOBE_FN lobe_real lobe_log_one_plus_ratio(lobe_real x, lobe_real y)
 
 /* B(a, b) = Gamma(a) Gamma(b)/Gamma(a + b), a and b in [1, 2^60]; 0 where it is below 1e-38. By Stirling's formula with
  * Binet's rest, in which the logarithm of the larger argument's share, near 0 and multiplied by that argument, is taken
- * without cancellation. Relative error 2.3e-7 (1 + |ln B|) (tests/test_masking.c, against GSL). */
+ * without cancellation. Relative error 2.3e-7 (1 + |ln B|) (tests/test_beta.c, against GSL). */
 LOBE_FN lobe_real lobe_beta(lobe_real a, lobe_real b)
 {
 	const lobe_real half_ln_2pi = LOBE_R(0.918938533204672741780);
 	const lobe_real x = lobe_min(a, b), y = lobe_max(a, b);
 	const lobe_real sum = x + y;
 	const lobe_real rest = lobe_binet(x) + lobe_binet(y) - lobe_binet(sum) + half_ln_2pi;
-	const lobe_real small = (x - LOBE_R(0.5)) * lobe_log(x / sum);
+	const lobe_real lesser = (x - LOBE_R(0.5)) * lobe_log(x / sum);
 	const lobe_real large = (y - LOBE_R(0.5)) * lobe_log_one_plus_ratio(x, y);
-	return lobe_exp(small - large - LOBE_R(0.5) * lobe_log(sum) + rest);
+	return lobe_exp(lesser - large - LOBE_R(0.5) * lobe_log(sum) + rest);
 }
 
 #endif

@@ -1,4 +1,5 @@
-/* erf.h - the error function, its complement scaled, and its inverse; included by real.h after explog.h. */
+/* erf.h - the error function, its complement scaled, and its inverse; a part of real.h, to be
+ * included by that alone. */
 #ifndef LOBE_CORE_ERF_H
 #define LOBE_CORE_ERF_H
 
@@ -15,7 +16,7 @@ LOBE_FN lobe_real lobe_erf(lobe_real x)
 	p = lobe_fma(p, square, LOBE_R(0x1.ce1fd2p-4));
 	p = lobe_fma(p, square, LOBE_R(-0x1.8127p-2));
 	p = lobe_fma(p, square, LOBE_R(0x1.06eba6p-3));
-	const lobe_real small = lobe_fma(a, p, a);
+	const lobe_real inner = lobe_fma(a, p, a);
 
 	const lobe_real b = a > LOBE_R(4.0) ? LOBE_R(4.0) : a;
 	lobe_real g = LOBE_R(-0x1.2e6866p-12);
@@ -28,7 +29,7 @@ LOBE_FN lobe_real lobe_erf(lobe_real x)
 	const lobe_real shifted = LOBE_EXP_SHIFT - g;
 	const lobe_real r = (LOBE_EXP_SHIFT - shifted) - g;
 	const lobe_real big = LOBE_R(1.0) - lobe_scale_exp(lobe_exp2_fraction(r), shifted);
-	return lobe_nan_or(x, lobe_flip_sign(a < LOBE_R(0.875) ? small : big, lobe_sign_bit(x)));
+	return lobe_nan_or(x, lobe_flip_sign(a < LOBE_R(0.875) ? inner : big, lobe_sign_bit(x)));
 }
 
 /* exp(x^2) times the complement 1 - erf(x) as a quotient, for who divides anyway; 0 <= x <= 2^14. Polynomials as in
@@ -57,9 +58,9 @@ LOBE_FN lobe_quotient lobe_erfcx_quotient(lobe_real x)
  * erfcx(inf) = 0. Measured: 6.04 ulp at x = 4654.03906; 3 ulp below 1. From 2^14 on it is 1/(sqrt(pi) x). */
 LOBE_FN lobe_real lobe_erfcx(lobe_real x)
 {
-	const lobe_quotient near = lobe_erfcx_quotient(x);
-	const lobe_uint far = x > LOBE_R(0x1p+14);
-	const lobe_real v = (far ? LOBE_R(0x1.20dd76p-1) : near.num) / (far ? x : near.den);
+	const lobe_quotient inner = lobe_erfcx_quotient(x);
+	const lobe_uint outer = x > LOBE_R(0x1p+14);
+	const lobe_real v = (outer ? LOBE_R(0x1.20dd76p-1) : inner.num) / (outer ? x : inner.den);
 	return x >= LOBE_R(0.0) ? v : lobe_real_nan();
 }
 
@@ -80,9 +81,9 @@ LOBE_FN lobe_real lobe_ierfcx(lobe_real x)
 	q = lobe_fma(q, x, LOBE_R(0x1.d20dd4p+1));
 	q = lobe_fma(q, x, LOBE_R(0x1.6d9d9ap+1));
 	q = lobe_fma(q, x, LOBE_R(1.0));
-	const lobe_uint far = x > LOBE_R(0x1p+14);
+	const lobe_uint outer = x > LOBE_R(0x1p+14);
 	const lobe_real x2 = LOBE_R(0x1p-64) * x * x;
-	const lobe_real v = (far ? LOBE_R(0x1.20dd76p-66) : p) / (far ? x2 : q);
+	const lobe_real v = (outer ? LOBE_R(0x1.20dd76p-66) : p) / (outer ? x2 : q);
 	return x >= LOBE_R(0.0) ? v : lobe_real_nan();
 }
 

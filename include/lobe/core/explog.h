@@ -1,4 +1,4 @@
-/* explog.h - exponentials, logarithms and powers; included by real.h. */
+/* explog.h - exponentials, logarithms and powers; a part of real.h, to be included by that alone. */
 #ifndef LOBE_CORE_EXPLOG_H
 #define LOBE_CORE_EXPLOG_H
 

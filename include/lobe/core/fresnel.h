@@ -50,18 +50,35 @@ LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_select(int first, lobe_fre
 	return b;
 }
 
-/* At a unit normal, from the cosine: g^2 is c^2 + k or, where that cancels, eta^2 - sin^2. */
-LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_unit(lobe_real c, lobe_real eta)
+/* 1 - c^2, the squared sine of incidence on an interface of index eta. From within dense glass light leaves in a cone
+ * so narrow that its cosine has no digits left: there it is that of cross, the direction times the unit normal. */
+LOBE_FN lobe_real lobe_sine2(lobe_real c, lobe_real eta, lobe_vec3 cross)
+{
+	const lobe_real one = LOBE_R(1.0);
+	return eta < LOBE_R(0.5) ? lobe_dot(cross, cross) : (one - c) * (one + c);
+}
+
+/* At a unit normal, from the cosine and the squared sine: g^2 is c^2 + k or, where that cancels, eta^2 - sin^2. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_unit(lobe_real c, lobe_real s2, lobe_real eta)
 {
 	const lobe_real one = LOBE_R(1.0);
 	lobe_fresnel_interface f = lobe_fresnel_interface_make(eta);
 	f.c = c;
-	const lobe_real s2 = (one - f.c) * (one + f.c);
 	const lobe_real thin = lobe_fma(eta, eta, -s2);
 	const lobe_real thick = lobe_fma(f.c, f.c, f.k);
 	f.g = lobe_fresnel_g(f.eta2 < LOBE_R(0.5) ? thin : thick);
 	f.x = lobe_fma(f.c, f.g, -s2);
 	f.m2 = one;
+	return f;
+}
+
+/* The same where the refracted direction is known too, with the cosine cos_t: from the denser side that does not cancel
+ * near total reflection. */
+LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_across(lobe_fresnel_interface f, lobe_real s2, lobe_real cos_t)
+{
+	const int dense = f.k < LOBE_R(0.0);
+	f.g = dense ? f.eta * cos_t : f.g;
+	f.x = lobe_fma(f.c, f.g, -s2);
 	return f;
 }
 
@@ -134,16 +151,10 @@ LOBE_FN lobe_real lobe_fresnel_share(lobe_fresnel_interface f, int reflects)
 	return lobe_at_most(share, one);
 }
 
-/* Exact dielectric Fresnel. Domain: eta in [1/1000, 1000]. Near total reflection
- *	1 - F = 2 g c (1/A^2 + eta^2/B^2)
- * does not cancel either. eta = 1 is no interface: F = 0 even at c = 0. A NaN eta gives NaN.
- *
- * Relative error, eta > 1: reflectance 8.4e-7, transmittance 5.3e-7, cos_t 1.4e-7; eta < 1, beyond what a rounding of
- * eta or c does near the edge of total reflection: 7.7e-7, 3.4e-7, 1.4e-7 (tests/test_fresnel.c, against MPFR). */
-LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
+/* lobe_fresnel_dielectric of an interface at a unit normal, whose angles the caller may know better than by the cosine. */
+LOBE_FN lobe_fresnel lobe_fresnel_dielectric_at(lobe_fresnel_interface f)
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const lobe_fresnel_interface f = lobe_fresnel_interface_unit(c, eta);
 	const lobe_fresnel_amplitudes m = lobe_fresnel_amplitudes_make(f);
 	/* One comparison: of two gcc makes a branch. */
 	const int total = f.g <= (f.k < zero ? zero : -one);
@@ -153,9 +164,20 @@ LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
 	lobe_fresnel r;
 	r.reflectance = total ? one : reflected;
 	r.transmittance = total ? zero : through;
-	r.cos_t = f.g / eta;
+	r.cos_t = f.g / f.eta;
 	r.bend = m.bend;
 	return r;
+}
+
+/* Exact dielectric Fresnel. Domain: eta in [1/1000, 1000]. Near total reflection
+ *	1 - F = 2 g c (1/A^2 + eta^2/B^2)
+ * does not cancel either. eta = 1 is no interface: F = 0 even at c = 0. A NaN eta gives NaN.
+ *
+ * Relative error, eta > 1: reflectance 8.4e-7, transmittance 5.3e-7, cos_t 1.4e-7; eta < 1, beyond what a rounding of
+ * eta or c does near the edge of total reflection: 7.7e-7, 3.4e-7, 1.4e-7 (tests/test_fresnel.c, against MPFR). */
+LOBE_FN lobe_fresnel lobe_fresnel_dielectric(lobe_real c, lobe_real eta)
+{
+	return lobe_fresnel_dielectric_at(lobe_fresnel_interface_unit(c, (LOBE_R(1.0) - c) * (LOBE_R(1.0) + c), eta));
 }
 
 /* The refracted direction of w through an interface with unit normal m, both on the incident side: w.m = c > 0, and
@@ -190,9 +212,9 @@ LOBE_FN lobe_fresnel_angle lobe_fresnel_angle_make(lobe_real c2)
 	return a;
 }
 
-/* The root A + iK of N^2 - sin^2, N = n + ik, K >= 0, by its larger part: what a metal makes of the cosine, as g is of a
- * dielectric. m + 2ink = N^2 - 1, nk2 = 2nk, t = m + cos^2 or, where that cancels, n^2 - k^2 - sin^2, q = A^2 + K^2, sum
- * = q + |t|.
+/* The root A + iK of N^2 - sin^2, N = n + ik, K >= 0, by its larger part: what a metal makes of the cosine, as g is of
+ * a dielectric. m + 2ink = N^2 - 1, nk2 = 2nk, t = m + cos^2 or, where that cancels, n^2 - k^2 - sin^2, q = A^2 + K^2,
+ * sum = q + |t|.
  *
  * A = sqrt((q + t)/2), but for a metal t < 0 and q + t cancels; then A = nk/K with K = sqrt((q - t)/2), which does not.
  * 2^-90 keeps all but t off 0, where k = 0 and n = sin; q is then less than a rounding of t. */
@@ -216,8 +238,9 @@ LOBE_FN lobe_fresnel_conductor_root lobe_fresnel_conductor_root_make(lobe_real c
 /* Exact reflectance of a conductor with complex index N = n + ik over the incident side's real one.
  * Domain: n in [1/1000, 1000], k in [0, 1000]. 0 when n or k is NaN.
  *
- * From r_s = (c - G)/(c + G), G = A + iK, and the ratio of |r_p|^2 to |r_s|^2 (Born and Wolf, 14.2). c^2 - G^2 = 1 - N^2
- * is the same at every angle, so that with M = |N^2 - 1|^2, a sum of squares, nothing cancels, however near N is to 1:
+ * From r_s = (c - G)/(c + G), G = A + iK, and the ratio of |r_p|^2 to |r_s|^2 (Born and Wolf, 14.2). c^2 - G^2 = 1 -
+ * N^2 is the same at every angle, so that with M = |N^2 - 1|^2, a sum of squares, nothing cancels, however near N is to
+ * 1:
  *	F_s = M/W^2,                 W = |c + G|^2 = q + c^2 + 2Ac
  *	(F_s + F_p)/2 = F_s E/(E + 2Ac s^2),             E = q c^2 + s^4
  * Multiplied through by S = 2 max(A, K)^2 = q + |t|, both cases of the root need one root more and no division:
@@ -246,6 +269,8 @@ LOBE_FN lobe_real lobe_fresnel_conductor_at(lobe_fresnel_angle a, lobe_real n, l
 	return lobe_at_most(f.num / f.den, LOBE_R(1.0));
 }
 
+/* Reflectance of a conductor of index n + ik at the cosine c in [0, 1], unpolarised, in [0, 1]; 0 where an argument is
+ * no number. n in [1/1000, 1000], k in [0, 1000], over the index outside. */
 LOBE_FN lobe_real lobe_fresnel_conductor(lobe_real c, lobe_real n, lobe_real k)
 {
 	return lobe_finite_or_zero(lobe_fresnel_conductor_at(lobe_fresnel_angle_make(c * c), n, k));
@@ -258,6 +283,7 @@ LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle a, lobe_rgb n,
 			     lobe_fresnel_conductor_at(a, n.b, k.b) * x);
 }
 
+/* The same of three colours. */
 LOBE_FN lobe_rgb lobe_fresnel_conductor_rgb(lobe_real c, lobe_rgb n, lobe_rgb k)
 {
 	return lobe_rgb_finite_or_zero(

@@ -153,14 +153,15 @@ LOBE_FN lobe_real lobe_fresnel_mean(lobe_rgb f)
 	return lobe_fma(LOBE_R(1.0) / LOBE_R(3.0), (f.g - f.r) + (f.b - f.r), f.r);
 }
 
-/* An interface of index e, the far side's over the near one's. What a model says of normal incidence holds from both
- * sides; from the denser one it is taken at the refracted angle, and reflection is total where it is. */
-LOBE_FN_APART lobe_fresnel_split lobe_fresnel_model_interface(lobe_fresnel_model f, lobe_real c, lobe_real e)
+/* An interface at a unit normal. What a model says of normal incidence holds from both sides; from the denser one it is
+ * taken at the refracted angle, and reflection is total where it is. */
+LOBE_FN_APART lobe_fresnel_split lobe_fresnel_model_interface(lobe_fresnel_model f, lobe_fresnel_interface at)
 {
+	const lobe_real c = at.c, e = at.eta;
 	const lobe_real one = LOBE_R(1.0), zero = LOBE_R(0.0);
 	const lobe_uint model = LOBE_CHOSEN(f.model, LOBE_ONLY_FRESNEL);
 	lobe_fresnel_split s;
-	s.exact = lobe_fresnel_dielectric(c, e);
+	s.exact = lobe_fresnel_dielectric_at(at);
 	const int total = s.exact.transmittance == zero;
 	const lobe_real thin = e < one ? s.exact.cos_t : c;
 	if (model == LOBE_FRESNEL_EXACT) {

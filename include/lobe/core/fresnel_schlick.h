@@ -51,6 +51,8 @@ LOBE_FN lobe_rgb lobe_fresnel_schlick_mix_rgb(lobe_real weight, lobe_rgb f0, lob
 			     lobe_fresnel_schlick_mix(weight, f0.b, f90.b));
 }
 
+/* Schlick's reflectance f0 + (f90 - f0) (1 - c)^5 at the cosine c in [0, 1]; f0, f90 in [0, 1]: at normal incidence and
+ * at grazing, 1 where it is not given. _rgb: of three colours. */
 LOBE_FN lobe_real lobe_fresnel_schlick(lobe_real c, lobe_real f0)
 {
 	return lobe_fresnel_schlick_mix(lobe_fresnel_schlick_weight(c), f0, LOBE_R(1.0));

@@ -25,8 +25,8 @@ LOBE_FN lobe_real lobe_expm1(lobe_real x)
 	const lobe_real one = LOBE_R(1.0);
 	const lobe_real u = lobe_exp(x);
 	const lobe_real less = u - one;
-	const lobe_real near = u == one ? x : less * (x / lobe_log(u));
-	return lobe_abs(x) < one ? near : less;
+	const lobe_real ratio = u == one ? x : less * (x / lobe_log(u));
+	return lobe_abs(x) < one ? ratio : less;
 }
 
 /* (exp(x) - 1)/x, 1 at 0. */

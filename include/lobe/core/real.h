@@ -95,9 +95,9 @@ LOBE_FN lobe_quotient lobe_erfcx_quotient(lobe_real x)
 LOBE_FN lobe_real lobe_ierfcx(lobe_real x)
 {
 	const lobe_real t = lobe_erfcx_tail(x);
-	const lobe_real near = 0x1.20dd750429b6dp-1 - x * (exp(x * x) * erfc(x));
-	const lobe_real far = 0x1.20dd750429b6dp-1 / (x + t) * t;
-	return x >= 0.0 ? (x < 3.0 ? near : far) : (double)NAN;
+	const lobe_real inner = 0x1.20dd750429b6dp-1 - x * (exp(x * x) * erfc(x));
+	const lobe_real outer = 0x1.20dd750429b6dp-1 / (x + t) * t;
+	return x >= 0.0 ? (x < 3.0 ? inner : outer) : (double)NAN;
 }
 
 /* One step of Halley's method on erf(y) = a, or on erfc(y) = c, c = 1 - a, whose relative error stays small

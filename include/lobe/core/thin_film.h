@@ -193,8 +193,6 @@ LOBE_FN lobe_airy lobe_film_unpolarised(lobe_film_terms s, lobe_real sum_s, lobe
 	sum(terms, (f).s1.channel, (f).s2.channel, (f).s3.channel, (f).s4.channel, (f).s5.channel, (f).q.channel,      \
 	    (f).less_q.channel)
 
-LOBE_FN lobe_real lobe_film_opd(lobe_film film, lobe_film_top top) { return (film.thickness + film.thickness) * top.g; }
-
 /* Reflectance of film over the metal eta + ik. c: cosine outside. */
 LOBE_FN lobe_rgb lobe_thin_film_conductor_rgb(lobe_real c, lobe_film film, lobe_rgb eta, lobe_rgb k)
 {

@@ -1,4 +1,5 @@
-/* trig.h - sine, cosine, tangent and their inverses; included by real.h. */
+/* trig.h - sine, cosine, tangent and their inverses; a part of real.h, to be included by that
+ * alone. */
 #ifndef LOBE_CORE_TRIG_H
 #define LOBE_CORE_TRIG_H
 
@@ -103,11 +104,11 @@ LOBE_FN lobe_reduced_angle lobe_reduce_angle(lobe_real magnitude)
 	const lobe_real fixed_rest = lobe_fma((lobe_real)bottom, LOBE_R(0x1p-66), fixed_middle - (fixed - fixed_top));
 
 	const lobe_real inverse = LOBE_R(0x1.45f306p-3);
-	const lobe_real small = magnitude * inverse;
-	const lobe_real small_rest = lobe_fma(magnitude, LOBE_R(0x1.b9391p-28), lobe_fma(magnitude, inverse, -small));
+	const lobe_real little = magnitude * inverse;
+	const lobe_real small_rest = lobe_fma(magnitude, LOBE_R(0x1.b9391p-28), lobe_fma(magnitude, inverse, -little));
 
 	const lobe_uint is_small = exponent < 126u;
-	const lobe_real turn = is_small ? small : fixed;
+	const lobe_real turn = is_small ? little : fixed;
 	const lobe_real rest = is_small ? small_rest : fixed_rest;
 	const lobe_real square = turn * turn;
 	lobe_reduced_angle r;

@@ -41,6 +41,13 @@ LOBE_FN lobe_real lobe_dot(lobe_vec3 a, lobe_vec3 b) { return lobe_fma(a.x, b.x,
 LOBE_FN lobe_vec3 lobe_vec3_squares(lobe_vec3 v) { return lobe_vec3_make(v.x * v.x, v.y * v.y, v.z * v.z); }
 LOBE_FN lobe_real lobe_vec3_sum(lobe_vec3 v) { return v.x + v.y + v.z; }
 
+/* x^2 + y^2: of a direction the square of its sine to z. */
+LOBE_FN lobe_real lobe_vec3_xy2(lobe_vec3 v) { return lobe_fma(v.x, v.x, v.y * v.y); }
+
+/* Neither infinite nor NaN. Of a sum it says so of each term, unless they overflow together. */
+LOBE_FN int lobe_is_number(lobe_real x) { return x - x == LOBE_R(0.0); }
+LOBE_FN int lobe_vec3_is_number(lobe_vec3 v) { return lobe_is_number(lobe_vec3_sum(v)); }
+
 /* a*b - c*d without the cancellation of two rounded products (Kahan; 1.5 ulp by Jeannerod et al. 2013). */
 LOBE_FN lobe_real lobe_diff_of_products(lobe_real a, lobe_real b, lobe_real c, lobe_real d)
 {

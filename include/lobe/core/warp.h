@@ -97,6 +97,7 @@ LOBE_FN lobe_real lobe_cosine_hemisphere_pdf(lobe_vec3 w)
 	return w.z > LOBE_R(0.0) ? w.z * LOBE_INV_PI : LOBE_R(0.0);
 }
 
+/* The point of the square that lobe_cosine_hemisphere takes to w. */
 LOBE_FN lobe_vec2 lobe_cosine_hemisphere_inverse(lobe_vec3 w)
 {
 	return lobe_concentric_disk_inverse(lobe_vec2_make(w.x, w.y));
@@ -121,10 +122,11 @@ LOBE_FN lobe_vec3 lobe_spherical_cap(lobe_vec2 u, lobe_real height) { return lob
 /* [1/sr], inside the cap. */
 LOBE_FN lobe_real lobe_spherical_cap_pdf(lobe_real height) { return LOBE_R(1.0) / (LOBE_2PI * height); }
 
+/* The point of the square that lobe_spherical_cap takes to w, a direction inside the cap. */
 LOBE_FN lobe_vec2 lobe_spherical_cap_inverse(lobe_vec3 w, lobe_real height)
 {
 	const lobe_real one = LOBE_R(1.0);
-	const lobe_real s2 = lobe_fma(w.x, w.x, w.y * w.y);
+	const lobe_real s2 = lobe_vec3_xy2(w);
 	const lobe_real turns = lobe_atan2(w.y, w.x) / LOBE_2PI;
 	/* 1 - z above the equator as (x^2 + y^2)/(1 + z). */
 	const lobe_real h = w.z > LOBE_R(0.0) ? s2 / (one + w.z) : one - w.z;

@@ -35,10 +35,10 @@ LOBE_FN lobe_real lobe_iridescent_conductor_params(lobe_iridescent_conductor p)
 	return p.stretch.norm + p.eta.r + p.eta.g + p.eta.b + p.k.r + p.k.g + p.k.b + p.film.thickness + p.film.index;
 }
 
-/* h2: |wo + wi|^2 = 4 c^2, which rounding can carry above 4. */
+/* h2: |wo + wi|^2. */
 LOBE_FN lobe_rgb lobe_iridescent_conductor_fresnel(lobe_iridescent_conductor p, lobe_real h2)
 {
-	const lobe_real c = lobe_min(LOBE_R(0.5) * lobe_sqrt(h2), LOBE_R(1.0));
+	const lobe_real c = lobe_reflection_cosine(h2);
 	return lobe_thin_film_conductor_rgb(c, p.film, p.eta, p.k);
 }
 

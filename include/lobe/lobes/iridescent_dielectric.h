@@ -3,8 +3,9 @@
  * The microsurface, both events and both sides are those of microfacet/dielectric.h, with GGX; the share that a facet
  * reflects is that of the film in RGB (core/thin_film.h: Belcour and Barla 2017), and the rest passes, bent by the base
  * alone. Which of the two a sample is, the mean of the share over the channels decides; its weight carries the colour,
- * so one channel of it can be up to 3 while the mean of the three is at most 1. At thickness 0 it is ggx_dielectric to
- * rounding. A film does not turn light, so with eta = 1 what passes is a delta event, straight on. */
+ * so one channel of it, but for radiance's scale, can be up to 3 while the mean of the three is at most 1. At thickness
+ * 0 it is ggx_dielectric to rounding. A film does not turn light, so with eta = 1 what passes is a delta event,
+ * straight on. */
 #ifndef LOBE_LOBES_IRIDESCENT_DIELECTRIC_H
 #define LOBE_LOBES_IRIDESCENT_DIELECTRIC_H
 

@@ -37,17 +37,7 @@ LOBE_FN lobe_microfacet_conductor lobe_microfacet_conductor_make(lobe_microsurfa
 LOBE_FN int lobe_microfacet_conductor_ok(lobe_microfacet_conductor p, lobe_vec3 wo, lobe_vec3 wi, lobe_real facing)
 {
 	const lobe_real params = lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel);
-	const int numbers = params - params == LOBE_R(0.0);
-	return numbers & (lobe_min(lobe_min(wo.z, wi.z), facing) > LOBE_R(0.0));
-}
-
-/* The table of its distribution, for the scene that keeps it (core/table.h). */
-LOBE_FN lobe_table lobe_microfacet_conductor_table(lobe_microfacet_conductor p) { return p.surface.distribution.table; }
-
-LOBE_FN lobe_microfacet_conductor lobe_microfacet_conductor_with_table(lobe_microfacet_conductor p, lobe_table table)
-{
-	p.surface.distribution.table = table;
-	return p;
+	return lobe_is_number(params) & (lobe_min(lobe_min(wo.z, wi.z), facing) > LOBE_R(0.0));
 }
 
 /* f |cos theta_i| [1/sr] */
@@ -89,7 +79,8 @@ LOBE_FN_APART lobe_sample lobe_microfacet_conductor_sample(lobe_microfacet_condu
 	const lobe_rgb f = lobe_fresnel_model_opaque(p.fresnel, r.cosine);
 	const int ok = lobe_microfacet_conductor_ok(p, wo, wi, r.facing);
 	const lobe_real pdf = ok ? lobe_finite_or_zero(r.sampled) : zero;
-	return lobe_sample_select(pdf > zero, wi, lobe_rgb_finite_or_zero(lobe_rgb_scale(f, r.gain)), pdf,
+	const int there = (pdf > zero) & lobe_vec3_is_number(wi);
+	return lobe_sample_select(there, wi, lobe_rgb_finite_or_zero(lobe_rgb_scale(f, r.gain)), pdf,
 				  LOBE_EVENT_REFLECT | LOBE_EVENT_GLOSSY);
 }
 

@@ -52,6 +52,13 @@ LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_transport(lobe_mic
 	return p;
 }
 
+/* Every parameter is a number. */
+LOBE_FN int lobe_microfacet_dielectric_params(lobe_microfacet_dielectric p)
+{
+	return lobe_is_number(lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta +
+			      p.inv_eta);
+}
+
 /* From wo's side: side is 1 or -1, e the far index over the near one, scale that of transmitted light. */
 typedef struct {
 	lobe_vec3 o;
@@ -82,12 +89,13 @@ LOBE_FN_APART lobe_microfacet_dielectric_result lobe_microfacet_dielectric_at(lo
 {
 	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const lobe_real params =
-		lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
 	const lobe_scatter r = lobe_scatter_at(p.surface, strategy, v.o, i, v.e, 1);
-	const lobe_fresnel_split split = lobe_fresnel_model_interface(p.fresnel, r.cosine, v.e);
 	const int reflects = i.z > zero;
-	const int there = (params - params == zero) & (r.facing > zero) & (reflects | (p.delta == 0u));
+	const lobe_fresnel_interface by_cosine = lobe_fresnel_interface_unit(r.cosine, r.sine2, v.e);
+	const lobe_fresnel_interface across = lobe_fresnel_interface_across(by_cosine, r.sine2, r.far);
+	const lobe_fresnel_split split = lobe_fresnel_model_interface(
+		p.fresnel, lobe_fresnel_interface_select(reflects, by_cosine, across));
+	const int there = lobe_microfacet_dielectric_params(p) & (r.facing > zero) & (reflects | (p.delta == 0u));
 	const lobe_rgb share = reflects ? split.reflectance : split.transmittance;
 	const lobe_real scale = reflects ? one : v.scale;
 	const lobe_real chosen = lobe_strategy_of_directions(strategy) ? one
@@ -102,18 +110,6 @@ LOBE_FN_APART lobe_microfacet_dielectric_result lobe_microfacet_dielectric_at(lo
 		lobe_rgb_select(there, lobe_rgb_finite_or_zero(lobe_rgb_scale(share, inv_chosen * (scale * r.gain))));
 	result.pdf = there ? pdf : zero;
 	return result;
-}
-
-/* The table of its distribution, for the scene that keeps it (core/table.h). */
-LOBE_FN lobe_table lobe_microfacet_dielectric_table(lobe_microfacet_dielectric p)
-{
-	return p.surface.distribution.table;
-}
-
-LOBE_FN lobe_microfacet_dielectric lobe_microfacet_dielectric_with_table(lobe_microfacet_dielectric p, lobe_table table)
-{
-	p.surface.distribution.table = table;
-	return p;
 }
 
 /* f |cos theta_i| [1/sr] */
@@ -140,8 +136,6 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 {
 	const lobe_uint strategy = LOBE_CHOSEN(p.strategy, LOBE_ONLY_STRATEGY);
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const lobe_real params =
-		lobe_microsurface_params(p.surface) + lobe_fresnel_model_params(p.fresnel) + p.eta + p.inv_eta;
 	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, split.exact);
 	const lobe_vec3 i = v.e < one ? lobe_normalize(bent) : bent;
 	lobe_seen_facet seen;
@@ -154,7 +148,8 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 	const lobe_real ratio = lobe_strategy_ratio(d, lobe_strategy_density(strategy, p.surface, facet, d));
 	const lobe_rgb weight =
 		lobe_rgb_scale(split.transmittance, v.scale * ratio * (one / o.sigma / rate) / split.transmit);
-	const int ok = (params - params == zero) & (lobe_min(lobe_min(v.o.z, c), lobe_min(-i.z, rate)) > zero);
+	const int numbers = lobe_microfacet_dielectric_params(p) & lobe_vec3_is_number(i);
+	const int ok = numbers & (lobe_min(lobe_min(v.o.z, c), lobe_min(-i.z, rate)) > zero);
 	return lobe_sample_select(ok & (split.transmit > zero), lobe_vec3_scale(i, v.side),
 				  lobe_rgb_finite_or_zero(weight), split.transmit,
 				  LOBE_EVENT_TRANSMIT | LOBE_EVENT_DELTA);
@@ -176,7 +171,9 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_sample(lobe_microfacet_diel
 		const lobe_strategy_facet f = lobe_strategy_sample(strategy, p.surface, o, v.o, 1, u);
 		const lobe_vec3 m = lobe_normalize(lobe_linear_normal(p.surface.map, f.m));
 		const lobe_real c = lobe_min(lobe_dot(v.o, m), one);
-		const lobe_fresnel_split split = lobe_fresnel_model_interface(p.fresnel, c, v.e);
+		const lobe_real s2 = lobe_sine2(c, v.e, lobe_cross(v.o, m));
+		const lobe_fresnel_split split =
+			lobe_fresnel_model_interface(p.fresnel, lobe_fresnel_interface_unit(c, s2, v.e));
 		const int reflects = f.rest < split.reflect;
 		if (!reflects && p.delta != 0u)
 			return lobe_microfacet_dielectric_straight(p, v, o, f.m, m, c, split);
@@ -190,7 +187,8 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_sample(lobe_microfacet_diel
 	}
 	const lobe_microfacet_dielectric_result r = lobe_microfacet_dielectric_at(p, v, i);
 	const lobe_uint way = i.z > zero ? LOBE_EVENT_REFLECT : LOBE_EVENT_TRANSMIT;
-	return lobe_sample_select(r.pdf > zero, lobe_vec3_scale(i, v.side), r.weight, r.pdf, way | LOBE_EVENT_GLOSSY);
+	const int ok = (r.pdf > zero) & lobe_vec3_is_number(i);
+	return lobe_sample_select(ok, lobe_vec3_scale(i, v.side), r.weight, r.pdf, way | LOBE_EVENT_GLOSSY);
 }
 
 #endif

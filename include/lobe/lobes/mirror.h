@@ -33,11 +33,12 @@ LOBE_FN lobe_real lobe_mirror_pdf(lobe_mirror p, lobe_vec3 wo, lobe_vec3 wi)
 	return LOBE_R(0.0);
 }
 
-/* Uses nothing of u. No sample for a wo in the surface. */
+/* Uses nothing of u. No sample for a wo in the surface or that is none. */
 LOBE_FN lobe_sample lobe_mirror_sample(lobe_mirror p, lobe_vec3 wo, lobe_vec3 u)
 {
+	const int ok = (lobe_abs(wo.z) > LOBE_R(0.0)) & lobe_vec3_is_number(wo);
 	(void)u;
-	return lobe_sample_select(lobe_abs(wo.z) > LOBE_R(0.0), lobe_vec3_make(-wo.x, -wo.y, wo.z),
+	return lobe_sample_select(ok, lobe_vec3_make(-wo.x, -wo.y, wo.z),
 				  lobe_rgb_finite_or_zero(p.reflectance), LOBE_R(1.0),
 				  LOBE_EVENT_REFLECT | LOBE_EVENT_DELTA);
 }

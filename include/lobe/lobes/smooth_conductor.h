@@ -42,7 +42,7 @@ LOBE_FN lobe_sample lobe_smooth_conductor_sample(lobe_smooth_conductor p, lobe_v
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_real params = p.eta.r + p.eta.g + p.eta.b + p.k.r + p.k.g + p.k.b;
-	const int ok = (params - params == zero) & (wo.z > zero);
+	const int ok = lobe_is_number(params) & lobe_vec3_is_number(wo) & (wo.z > zero);
 	const lobe_real c = lobe_min(wo.z, one);
 	(void)u;
 	return lobe_sample_select(ok, lobe_vec3_make(-wo.x, -wo.y, wo.z),

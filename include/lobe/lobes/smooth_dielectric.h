@@ -73,7 +73,7 @@ LOBE_FN lobe_sample lobe_smooth_dielectric_sample(lobe_smooth_dielectric p, lobe
 	const lobe_real pdf = reflects ? fr.reflectance : fr.transmittance;
 	const lobe_real scale = p.transport == LOBE_TRANSPORT_RADIANCE ? inv_e * inv_e : one;
 	const lobe_real w = reflects ? one : scale;
-	return lobe_sample_select(lobe_min(z, pdf) > zero, wi, lobe_rgb_make(w, w, w), pdf,
+	return lobe_sample_select((lobe_min(z, pdf) > zero) & lobe_vec3_is_number(wo), wi, lobe_rgb_make(w, w, w), pdf,
 				  LOBE_EVENT_DELTA | (reflects ? LOBE_EVENT_REFLECT : LOBE_EVENT_TRANSMIT));
 }
 

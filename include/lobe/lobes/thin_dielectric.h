@@ -54,8 +54,8 @@ LOBE_FN lobe_sample lobe_thin_dielectric_sample(lobe_thin_dielectric p, lobe_vec
 	const int reflects = u.z < reflectance;
 	const lobe_vec3 wi = lobe_vec3_make(-wo.x, -wo.y, reflects ? wo.z : -wo.z);
 	const lobe_real pdf = reflects ? reflectance : transmittance;
-	const lobe_real finite = p.eta - p.eta == zero ? pdf : zero;
-	return lobe_sample_select(lobe_min(z, finite) > zero, wi, lobe_rgb_make(one, one, one), pdf,
+	const int numbers = lobe_is_number(p.eta) & lobe_vec3_is_number(wo);
+	return lobe_sample_select(numbers & (lobe_min(z, pdf) > zero), wi, lobe_rgb_make(one, one, one), pdf,
 				  LOBE_EVENT_DELTA | (reflects ? LOBE_EVENT_REFLECT : LOBE_EVENT_TRANSMIT));
 }
 

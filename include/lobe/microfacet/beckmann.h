@@ -61,7 +61,7 @@ typedef struct {
 LOBE_FN lobe_beckmann_angle lobe_beckmann_angle_of(lobe_vec3 v)
 {
 	lobe_beckmann_angle a;
-	a.r = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
+	a.r = lobe_sqrt(lobe_vec3_xy2(v));
 	a.inv_r = LOBE_R(1.0) / a.r;
 	a.c = lobe_min(lobe_abs(v.z) * a.inv_r, LOBE_R(0x1p+26));
 	return a;
@@ -112,7 +112,7 @@ LOBE_FN lobe_real lobe_beckmann_t(lobe_vec3 v)
  * floats: it ends at the first of them, and as a sum it would lose all its digits there. */
 LOBE_FN lobe_real lobe_beckmann_hidden_rational(lobe_vec3 v)
 {
-	const lobe_real r = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
+	const lobe_real r = lobe_sqrt(lobe_vec3_xy2(v));
 	const lobe_real z = lobe_abs(v.z);
 	/* |z| Lambda with c = z/r: one division. */
 	const lobe_real first = lobe_fma(LOBE_R(-0x1.8c5274p+0), r, z) - LOBE_R(-0x1.3a1c96p-27) * r;

@@ -32,17 +32,20 @@ LOBE_FN lobe_rgb lobe_rough_conductor_fresnel(lobe_rough_conductor p, lobe_real 
 	return lobe_fresnel_conductor_rgb_at(lobe_fresnel_angle_make(LOBE_R(0.25) * h2), p.eta, p.k, x);
 }
 
+/* f |cos theta_i| [1/sr]. ndf: LOBE_NDF_*, a constant, here and below. */
 LOBE_FN lobe_rgb lobe_rough_conductor_eval(lobe_uint ndf, lobe_rough_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_reflection_eval r = lobe_reflection_eval_at(ndf, p.stretch, lobe_rough_conductor_params(p), wo, wi);
 	return lobe_reflection_eval_result(r, lobe_rough_conductor_fresnel(p, r.h2, r.value));
 }
 
+/* [1/sr] */
 LOBE_FN lobe_real lobe_rough_conductor_pdf(lobe_uint ndf, lobe_rough_conductor p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	return lobe_reflection_pdf(ndf, p.stretch, lobe_rough_conductor_params(p), wo, wi);
 }
 
+/* Uses u.x and u.y. No sample where the facet reflects below the surface. */
 LOBE_FN lobe_sample lobe_rough_conductor_sample(lobe_uint ndf, lobe_rough_conductor p, lobe_vec3 wo, lobe_vec3 u)
 {
 	const lobe_reflection_sample r =

@@ -9,9 +9,8 @@
 #include "facet.h"
 
 /* x^2 + y^2, of which every user of t has a part to share. */
-LOBE_FN lobe_real lobe_ggx_r2(lobe_vec3 v) { return lobe_fma(v.x, v.x, v.y * v.y); }
 
-LOBE_FN lobe_real lobe_ggx_t(lobe_vec3 v) { return lobe_sqrt(lobe_fma(v.z, v.z, lobe_ggx_r2(v))); }
+LOBE_FN lobe_real lobe_ggx_t(lobe_vec3 v) { return lobe_sqrt(lobe_fma(v.z, v.z, lobe_vec3_xy2(v))); }
 
 /* pi D = 1/|h|^4, inv over s. h2: the squares of h. Infinite for h = 0, where there is no normal. */
 LOBE_FN lobe_facet_density lobe_ggx_density_over(lobe_vec3 h2, lobe_real s)
@@ -31,7 +30,7 @@ LOBE_FN lobe_facet_density lobe_ggx_density(lobe_vec3 h)
 LOBE_FN lobe_real lobe_ggx_hidden(lobe_vec3 v)
 {
 	const lobe_real sum = lobe_ggx_t(v) + lobe_abs(v.z);
-	return LOBE_R(0.5) * lobe_ggx_r2(v) / sum;
+	return LOBE_R(0.5) * lobe_vec3_xy2(v) / sum;
 }
 
 LOBE_FN lobe_real lobe_ggx_tail(lobe_real t2) { return LOBE_R(1.0) / (LOBE_R(1.0) + t2); }
@@ -39,7 +38,7 @@ LOBE_FN lobe_real lobe_ggx_tail(lobe_real t2) { return LOBE_R(1.0) / (LOBE_R(1.0
 /* q in (0, 1]. */
 LOBE_FN lobe_real lobe_ggx_tail_inverse(lobe_real q) { return (LOBE_R(1.0) - q) / q; }
 
-/* The normal that the part of the cap above u.y makes; height: t + v.z, r2: lobe_ggx_r2. In lobe_sphere_cap's terms,
+/* The normal that the part of the cap above u.y makes; height: t + v.z, r2: lobe_vec3_xy2. In lobe_sphere_cap's terms,
  * all t times as large: the point's z and v.z add up to (1 - u.y) height, which stays above 0, and since what the cap
  * leaves of the sphere, t - v.z, is r2/height, the point is off the axis by the root of u.y (r2 + z height), without a
  * difference. */
@@ -57,14 +56,14 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_cap(lobe_vec3 v, lobe_real height, lobe_real 
  * -v.z/t of the unit sphere gives the normal c + v/t. Here all is t times as large, which saves the division. */
 LOBE_FN lobe_vec3 lobe_ggx_visible_above(lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
-	return lobe_ggx_visible_cap(v, v.z + t, lobe_ggx_r2(v), u);
+	return lobe_ggx_visible_cap(v, v.z + t, lobe_vec3_xy2(v), u);
 }
 
 /* The same for v on either side: below the horizon t + v.z is (x^2 + y^2)/(t - v.z). */
 LOBE_FN lobe_vec3 lobe_ggx_visible(lobe_vec3 v, lobe_vec2 u)
 {
 	const lobe_real t = lobe_ggx_t(v);
-	const lobe_real r2 = lobe_ggx_r2(v);
+	const lobe_real r2 = lobe_vec3_xy2(v);
 	return lobe_ggx_visible_cap(v, v.z < LOBE_R(0.0) ? r2 / (t + lobe_abs(v.z)) : v.z + t, r2, u);
 }
 

@@ -16,7 +16,7 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_cut(lobe_vec3 v, lobe_real u, lobe_real p, lo
 {
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_real inv_t = one / lobe_ggx_t(v);
-	const lobe_real length = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
+	const lobe_real length = lobe_sqrt(lobe_vec3_xy2(v));
 	const lobe_real inv_length = one / length;
 	const lobe_real ex = length > zero ? v.x * inv_length : one;
 	const lobe_real ey = length > zero ? v.y * inv_length : zero;
@@ -92,7 +92,7 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_slopes(lobe_vec3 v, lobe_vec2 u)
 LOBE_FN lobe_real lobe_ggx_bounded_k(lobe_real narrow, lobe_vec3 wo)
 {
 	const lobe_real one = LOBE_R(1.0);
-	const lobe_real s = one + lobe_sqrt(lobe_fma(wo.x, wo.x, wo.y * wo.y));
+	const lobe_real s = one + lobe_sqrt(lobe_vec3_xy2(wo));
 	const lobe_real s2 = s * s;
 	const lobe_real a = lobe_min(narrow, one);
 	const lobe_real az = a * wo.z;

@@ -23,6 +23,10 @@
 #include "profile_visible.h"
 #include "shape.h"
 
+/* Domain: gamma. */
+#define LOBE_GTR_GAMMA_MIN LOBE_R(0.01)
+#define LOBE_GTR_GAMMA_MAX LOBE_R(100.0)
+
 /* d.exponent: gamma. d.width: alpha. d.norm: pi D(0). */
 LOBE_FN lobe_real lobe_gtr_one_minus_a(lobe_distribution d)
 {
@@ -33,7 +37,7 @@ LOBE_FN lobe_real lobe_gtr_one_minus_a(lobe_distribution d)
 LOBE_FN lobe_facet_density lobe_gtr_density(lobe_distribution d, lobe_vec3 h)
 {
 	const lobe_real a = d.width * d.width;
-	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y);
+	const lobe_real r2 = lobe_vec3_xy2(h);
 	const lobe_real z2 = h.z * h.z;
 	const lobe_real len2 = r2 + z2;
 	const lobe_real excess = lobe_gtr_one_minus_a(d) * r2 / (a * len2);
@@ -52,10 +56,10 @@ LOBE_FN lobe_real lobe_gtr_tail(lobe_distribution d, lobe_real t2)
 	const lobe_real a = -LOBE_R(2.0) * lobe_log(d.width);
 	/* l and a - l = log(w/A), each from the side on which it does not cancel; l/a without 0/0. */
 	const lobe_real rest = lobe_log1p(t2 * inv * all / (d.width * d.width));
-	const int near = all * inv > LOBE_R(0.5);
-	const lobe_real l = near ? a - rest : -lobe_log1p(-all * inv);
+	const int nearer = all * inv > LOBE_R(0.5);
+	const lobe_real l = nearer ? a - rest : -lobe_log1p(-all * inv);
 	const lobe_real far_share = inv * lobe_log1p_over(-all * inv) * all / a;
-	const lobe_real share = near ? l / a : (all == LOBE_R(0.0) ? inv : far_share);
+	const lobe_real share = nearer ? l / a : (all == LOBE_R(0.0) ? inv : far_share);
 	return share * lobe_expm1_over(-b * l) / lobe_expm1_over(-b * a) * lobe_exp(-b * rest);
 }
 
@@ -93,7 +97,7 @@ LOBE_FN lobe_real lobe_gtr_hidden_closed(lobe_distribution d, lobe_vec3 v)
 	const lobe_real two = LOBE_R(2.0);
 	const lobe_real three = LOBE_R(3.0);
 	const lobe_real a = d.width * d.width;
-	const lobe_real s2 = lobe_fma(v.x, v.x, v.y * v.y);
+	const lobe_real s2 = lobe_vec3_xy2(v);
 	const lobe_real z = lobe_abs(v.z);
 	const lobe_real big_p = lobe_sqrt(lobe_fma(a, s2, z * z));
 	const lobe_real sum = z + big_p;

@@ -18,7 +18,7 @@
  *
  * Domain: widths 1e-4 to 100, mean slopes to 100, correlations to +-0.9999. What single precision costs there is one
  * rounding of each coordinate, magnified by how oblong the map is: D is off by at most 5e-7 times the condition of A,
- * and for Beckmann times 1 + r^2 too, r in widths (tests/test_linear.c, which looks at r < 8). No form does better,
+ * and for Beckmann times 1 + r^2 too, r in widths (tests/test_smith_leadr.c, which looks at r < 8). No form does better,
  * since the rounding of the normal itself does as much. */
 #ifndef LOBE_MICROFACET_LINEAR_H
 #define LOBE_MICROFACET_LINEAR_H
@@ -143,9 +143,9 @@ LOBE_FN lobe_linear lobe_linear_from_moments(lobe_real mean_x, lobe_real mean_y,
 	const lobe_real d = LOBE_R(0.5) * (var_x - var_y);
 	const lobe_real h = lobe_sqrt(lobe_fma(d, d, cov * cov));
 	const lobe_real large = lobe_fma(LOBE_R(0.5), var_x + var_y, h);
-	const lobe_real small = lobe_diff_of_products(var_x, var_y, cov, cov) / (large == zero ? LOBE_R(1.0) : large);
+	const lobe_real lesser = lobe_diff_of_products(var_x, var_y, cov, cov) / (large == zero ? LOBE_R(1.0) : large);
 	const lobe_real two_large = large + large;
-	const lobe_real two_small = small + small;
+	const lobe_real two_lesser = lesser + lesser;
 	/* The axis of the large one, from whichever of its two forms does not cancel. */
 	const lobe_real c = d < zero ? cov : h + d;
 	const lobe_real s = d < zero ? h - d : cov;
@@ -153,7 +153,7 @@ LOBE_FN lobe_linear lobe_linear_from_moments(lobe_real mean_x, lobe_real mean_y,
 	const int round = len == zero;
 	const lobe_linear m = lobe_linear_principal(round ? LOBE_R(1.0) : c / len, round ? zero : s / len,
 						    lobe_sqrt(two_large < least ? least : two_large),
-						    lobe_sqrt(two_small < least ? least : two_small));
+						    lobe_sqrt(two_lesser < least ? least : two_lesser));
 	return lobe_linear_tilted(m, mean_x, mean_y);
 }
 

@@ -14,14 +14,15 @@
  *   and across the surface,
  *   SEPARABLE			G1(o) G1(i) (Walter et al. 2007)
  *   BETA			B(1 + Lo, 1 + Li), exact for Smith's heights (Heitz et al. 2016)
- * SMITH_RATIONAL		the same with Walter's rational Lambda of Beckmann in place of the exact one; G1 off by .0031
+ * SMITH_RATIONAL		the same with Walter's rational Lambda of Beckmann, whose G1 it misses by .0031; other
+ *				distributions are taken for Beckmann's of the width that they are like
  * VCAVITY			vcavity.h: min(1, G1(o, m), G1(i, m)); across, where the view sees the upper part of a side
  *				and the light its lower part, what is common to both: max(0, G1(o, m) + G1(i, m) - 1)
  *
- * Of these the weak furnace is 1: all that is seen of the facets is as large as the mean plane. Those that follow are
- * no microsurface's. They are here to be compared, as functions of the cosine c to the mean plane (with its shear
- * undone), the same across the surface as on one side, and, where they have a width, of the geometric mean of the map's
- * two.
+ * Of these but SMITH_RATIONAL, which is off by its G1, the weak furnace is 1: all that is seen of the facets is as
+ * large as the mean plane. Those that follow are no microsurface's. They are here to be compared, as functions of the
+ * cosine c to the mean plane (with its shear undone), the same across the surface as on one side, and, where they have
+ * a width, of the geometric mean of the map's two.
  *
  * NONE				1. Too bright: at grazing angles without bound
  * IMPLICIT			c_o c_i, which cancels the cosines of the denominator. Too dark

@@ -105,10 +105,14 @@ LOBE_FN lobe_real lobe_microsurface_params(lobe_microsurface s)
 	return slopes + inverse + shape + s.like + s.alpha + s.narrow;
 }
 
-/* |v.z| Lambda(v) by which the surface masks: the distribution's own, but for LOBE_MASKING_SMITH_RATIONAL. */
+/* |v.z| Lambda(v) by which the surface masks: the distribution's own, but for LOBE_MASKING_SMITH_RATIONAL, which takes
+ * it for Beckmann's of the width that it is like. */
 LOBE_FN lobe_real lobe_microsurface_hides(lobe_microsurface s, lobe_vec3 v, lobe_real hidden)
 {
-	return LOBE_CHOSEN(s.masking, LOBE_ONLY_MASKING) == LOBE_MASKING_SMITH_RATIONAL ? lobe_beckmann_hidden_rational(v) : hidden;
+	const lobe_vec3 like = lobe_vec3_make(s.like * v.x, s.like * v.y, v.z);
+	return LOBE_CHOSEN(s.masking, LOBE_ONLY_MASKING) == LOBE_MASKING_SMITH_RATIONAL
+		       ? lobe_beckmann_hidden_rational(like)
+		       : hidden;
 }
 
 /* What masking and sampling ask of a direction. v: as it sees the surface of width 1. z: the mean plane's area as seen

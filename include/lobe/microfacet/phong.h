@@ -19,7 +19,8 @@
 /* Smallest and largest exponent: those of widths 1 and 1e-4. */
 #define LOBE_PHONG_N_MAX LOBE_R(2e+8)
 
-/* The width of the Beckmann surface with the same D at its peak (Walter et al. 2007): sqrt(2/(n + 2)), and back. */
+/* The width of the Beckmann surface with the same D at its peak (Walter et al. 2007): sqrt(2/(n + 2)), n in [0,
+ * LOBE_PHONG_N_MAX]; and the exponent of a width alpha in [1e-4, 1]. */
 LOBE_FN lobe_real lobe_phong_alpha(lobe_real n) { return lobe_sqrt(LOBE_R(2.0) / (n + LOBE_R(2.0))); }
 LOBE_FN lobe_real lobe_phong_exponent(lobe_real alpha)
 {
@@ -30,7 +31,7 @@ LOBE_FN lobe_real lobe_phong_exponent(lobe_real alpha)
 /* d.exponent: n. d.norm: 1 + n/2. */
 LOBE_FN lobe_facet_density lobe_phong_density(lobe_distribution d, lobe_vec3 h)
 {
-	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y);
+	const lobe_real r2 = lobe_vec3_xy2(h);
 	const lobe_real z2 = h.z * h.z;
 	lobe_facet_density f;
 	f.inv = LOBE_R(1.0) / (r2 + z2);

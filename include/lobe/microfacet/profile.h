@@ -157,7 +157,7 @@ LOBE_FN lobe_real lobe_profile_tail_inverse(lobe_table t, lobe_real q)
 /* hidden(v) of facet.h. 0 for v along the normal. */
 LOBE_FN lobe_real lobe_profile_hidden(lobe_table t, lobe_vec3 v)
 {
-	const lobe_real s = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
+	const lobe_real s = lobe_sqrt(lobe_vec3_xy2(v));
 	const lobe_real z = lobe_abs(v.z) * lobe_table_fetch(t, LOBE_PROFILE_INV_R0) / s;
 	const lobe_real curve = lobe_profile_curve(t, LOBE_PROFILE_HIDDEN, lobe_min(z, LOBE_R(1e+36)));
 	return s > LOBE_R(0.0) ? s * curve : LOBE_R(0.0);
@@ -167,7 +167,7 @@ LOBE_FN lobe_real lobe_profile_hidden(lobe_table t, lobe_vec3 v)
  * tail and all samples belong to one and the same surface. */
 LOBE_FN lobe_facet_density lobe_profile_density(lobe_table t, lobe_vec3 h)
 {
-	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y);
+	const lobe_real r2 = lobe_vec3_xy2(h);
 	const lobe_real z2 = h.z * h.z;
 	const lobe_real x = lobe_profile_x(t, r2 / z2);
 	const lobe_real whole = LOBE_R(1.0) + x;

@@ -180,7 +180,7 @@ LOBE_FN lobe_vec3 lobe_profile_visible(lobe_table t, lobe_vec3 v, lobe_vec2 u)
 {
 	const lobe_real zero = LOBE_R(0.0);
 	const lobe_real one = LOBE_R(1.0);
-	const lobe_real s = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
+	const lobe_real s = lobe_sqrt(lobe_vec3_xy2(v));
 	const lobe_real above = lobe_max(v.z, zero);
 	const lobe_real hidden = lobe_profile_hidden(t, v);
 	const lobe_real seen = (one - u.x) * (above + hidden);

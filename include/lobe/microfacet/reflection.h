@@ -20,14 +20,17 @@
 /* Both directions above the surface and every parameter a number. */
 LOBE_FN int lobe_reflection_ok(lobe_real params, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const int numbers = params - params == LOBE_R(0.0);
-	return numbers & (lobe_min(wo.z, wi.z) > LOBE_R(0.0));
+	return lobe_is_number(params) & (lobe_min(wo.z, wi.z) > LOBE_R(0.0));
 }
 
 LOBE_FN lobe_real lobe_reflection_t(lobe_uint ndf, lobe_stretch s, lobe_vec3 w)
 {
 	return lobe_ndf_t(ndf, lobe_stretch_direction(s, w));
 }
+
+/* o.m of the facet between the two, from h2 = |wo + wi|^2, which is 4 times its square and which rounding can carry
+ * above 4. */
+LOBE_FN lobe_real lobe_reflection_cosine(lobe_real h2) { return lobe_min(LOBE_R(0.5) * lobe_sqrt(h2), LOBE_R(1.0)); }
 
 /* The squares of H = wo + wi. */
 LOBE_FN lobe_vec3 lobe_reflection_half(lobe_vec3 wo, lobe_vec3 wi) { return lobe_vec3_squares(lobe_vec3_add(wo, wi)); }

@@ -9,14 +9,15 @@
 #ifndef LOBE_MICROFACET_SCATTER_H
 #define LOBE_MICROFACET_SCATTER_H
 
+#include "../core/fresnel.h"
 #include "masking.h"
 #include "strategy.h"
 
-/* facing: > 0 where there is such a facet and both directions see the sides of it that they should. cosine: o.m.
- * density [1/sr] times F and g2_over_cos is f |cos theta_i|. sampled: density_s rate [1/sr]. gain: (density/density_s)
- * g2_over_cos/rate. */
+/* facing: > 0 where there is such a facet and both directions see the sides of it that they should. cosine, far: |o.m| and
+ * |i.m|. sine2: |o x m|^2, see lobe_sine2. density [1/sr] times F and g2_over_cos is f |cos theta_i|. sampled: density_s
+ * rate [1/sr]. gain: (density/density_s) g2_over_cos/rate. */
 typedef struct {
-	lobe_real facing, cosine, density, g2_over_cos, sampled, gain;
+	lobe_real facing, cosine, far, sine2, density, g2_over_cos, sampled, gain;
 } lobe_scatter;
 
 /* o.z > 0. i is above for a reflection and below for a refraction; e: index of the far side over that of o's (any for a
@@ -44,8 +45,12 @@ LOBE_FN_APART lobe_scatter lobe_scatter_at(lobe_microsurface s, lobe_uint strate
 	const lobe_facet_density d_s = lobe_strategy_density(strategy, s, f, d);
 	const lobe_real x = e_r * d.inv, x_s = e_r * d_s.inv;
 	lobe_scatter r;
-	r.facing = lobe_min(lobe_min(o.z, across ? -i.z : i.z), lobe_min(lobe_min(m.o, m.i), m.z));
+	const lobe_real facing = lobe_min(lobe_min(o.z, across ? -i.z : i.z), lobe_min(lobe_min(m.o, m.i), m.z));
+	r.facing = lobe_is_number(h2) ? facing : zero;
 	r.cosine = lobe_min(m.o / lobe_sqrt(h2), one);
+	r.far = lobe_min(m.i / lobe_sqrt(h2), one);
+	/* (o + e i) x o = e i x o */
+	r.sine2 = lobe_sine2(r.cosine, e, lobe_vec3_scale(lobe_cross(i, o), e_r / lobe_sqrt(h2)));
 	r.density = s.map.norm * (m.o * x) * (m.i * x) * d.factor;
 	r.g2_over_cos = lobe_masking_g2_over_cos(s, seen_o, seen_i, m, across);
 	if (lobe_strategy_of_directions(strategy)) {

@@ -26,24 +26,27 @@ LOBE_FN lobe_real lobe_rough_schlick_params(lobe_rough_schlick p)
 	return p.stretch.norm + p.f0.r + p.f0.g + p.f0.b + p.f90.r + p.f90.g + p.f90.b;
 }
 
-/* h2: |wo + wi|^2 = 4 c^2, which rounding can carry above 4. */
+/* h2: |wo + wi|^2. */
 LOBE_FN lobe_rgb lobe_rough_schlick_fresnel(lobe_rough_schlick p, lobe_real h2)
 {
-	const lobe_real c = lobe_min(LOBE_R(0.5) * lobe_sqrt(h2), LOBE_R(1.0));
+	const lobe_real c = lobe_reflection_cosine(h2);
 	return lobe_fresnel_schlick_f90_rgb(c, p.f0, p.f90);
 }
 
+/* f |cos theta_i| [1/sr]. ndf: LOBE_NDF_*, a constant, here and below. */
 LOBE_FN lobe_rgb lobe_rough_schlick_eval(lobe_uint ndf, lobe_rough_schlick p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_reflection_eval r = lobe_reflection_eval_at(ndf, p.stretch, lobe_rough_schlick_params(p), wo, wi);
 	return lobe_reflection_tint(r, lobe_rough_schlick_fresnel(p, r.h2));
 }
 
+/* [1/sr] */
 LOBE_FN lobe_real lobe_rough_schlick_pdf(lobe_uint ndf, lobe_rough_schlick p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	return lobe_reflection_pdf(ndf, p.stretch, lobe_rough_schlick_params(p), wo, wi);
 }
 
+/* Uses u.x and u.y. No sample where the facet reflects below the surface. */
 LOBE_FN lobe_sample lobe_rough_schlick_sample(lobe_uint ndf, lobe_rough_schlick p, lobe_vec3 wo, lobe_vec3 u)
 {
 	const lobe_reflection_sample r = lobe_reflection_sample_at(ndf, p.stretch, lobe_rough_schlick_params(p), wo, u);

@@ -20,6 +20,7 @@ typedef struct {
 	lobe_linear map;
 } lobe_smith;
 
+/* A surface of these normals under this map, masked as Smith has it. Holds copies of both. */
 LOBE_FN lobe_smith lobe_smith_make(lobe_distribution normals, lobe_linear map)
 {
 	lobe_smith s;

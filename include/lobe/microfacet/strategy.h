@@ -7,19 +7,20 @@
  * VISIBLE		the distribution's own visible normals: what production lobes do
  * UNIFORM, COSINE	no facet: a direction uniform over what the lobe can reach, a hemisphere or, where it transmits, the
  *			sphere; or by its cosine, on either side with probability 1/2
- * NDF			D(m) m.z (Walter et al. 2007): facets whether visible or not VISIBLE_SLOPES	GGX's visible normals, slope by
- * slope (Heitz and d'Eon 2014) VISIBLE_ELLIPSOID	the same on the projected ellipsoid (Heitz 2018) VISIBLE_CAP		the same
- * by spherical caps (Dupuy and Benyoub 2023) BOUNDED_CAP		those of them that reflect above the horizon, and few others
- * (Eto and Tokuyoshi 2023). The bound is one of
- *			reflection by a surface without shear; for any other it is VISIBLE_CAP
+ * NDF			D(m) m.z (Walter et al. 2007): facets whether visible or not
+ * VISIBLE_SLOPES	GGX's visible normals, slope by slope (Heitz and d'Eon 2014)
+ * VISIBLE_ELLIPSOID	the same on the projected ellipsoid (Heitz 2018)
+ * VISIBLE_CAP		the same by spherical caps (Dupuy and Benyoub 2023)
+ * BOUNDED_CAP		those of them that reflect above the horizon, and few others (Eto and Tokuyoshi 2023). The bound is one
+ *			of reflection by a surface without shear; for any other it is VISIBLE_CAP
  * VCAVITY		the visible sides of V-cavities (Heitz and d'Eon 2014). Nothing where the mean plane shows its back
  * HEMISPHERE		a point of the disk under the standard hemisphere, whose normal the map turns into one of the
  *			surface (Atanasov et al. 2022): 1/pi per area, times z to a solid angle of normals, times
  *			|det M| |M^-1..|^-3 to one of mapped normals
  *
  * Every one serves any distribution and any masking, unbiased: its density is that of what it samples, be that GGX's,
- * and nothing that the surface can do is out of its reach. With a distribution whose tail is longer than GGX's the
- * variance of GGX's samplers is infinite all the same. */
+ * and nothing that the surface can do is out of its reach (but VCAVITY's, where the mean plane shows its back). With a
+ * distribution whose tail is longer than GGX's the variance of GGX's samplers is infinite all the same. */
 #ifndef LOBE_MICROFACET_STRATEGY_H
 #define LOBE_MICROFACET_STRATEGY_H
 

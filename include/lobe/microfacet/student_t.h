@@ -26,7 +26,7 @@
 /* d.exponent: gamma. d.norm: 1/(gamma - 1). */
 LOBE_FN lobe_facet_density lobe_student_t_density(lobe_distribution d, lobe_vec3 h)
 {
-	const lobe_real r2 = lobe_fma(h.x, h.x, h.y * h.y) * d.norm;
+	const lobe_real r2 = lobe_vec3_xy2(h) * d.norm;
 	const lobe_real z2 = h.z * h.z;
 	lobe_facet_density f;
 	f.inv = LOBE_R(1.0) / (r2 + z2);
@@ -71,7 +71,7 @@ LOBE_FN lobe_real lobe_student_t_hidden_fit(lobe_distribution d, lobe_vec3 v)
 {
 	const lobe_real g = d.exponent;
 	const lobe_real one = LOBE_R(1.0);
-	const lobe_real s = lobe_sqrt(lobe_fma(v.x, v.x, v.y * v.y));
+	const lobe_real s = lobe_sqrt(lobe_vec3_xy2(v));
 	const lobe_real height = lobe_abs(v.z);
 	const lobe_real z = height / s;
 	const lobe_real root = lobe_sqrt(g - one);
