@@ -3,28 +3,26 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "internal.h"
-#include "lobe/profile_table.h"
+#include "slope_measure.h"
 
-static lobe_status check(const lobe_distribution *out, const float *table, size_t words)
+static lobe_status check(const char *call, const lobe_distribution *out, const float *table, size_t words)
 {
-	if (!out)
-		return lobe_fail(LOBE_ERROR_ARGUMENT, "out is null");
-	if (!table)
-		return lobe_fail(LOBE_ERROR_ARGUMENT, "table is null");
+	if (!out || !table)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: %s is NULL", call, out ? "table" : "out");
 	if ((uintptr_t)table % sizeof *table != 0)
-		return lobe_fail(LOBE_ERROR_ARGUMENT, "table is misaligned");
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: table is misaligned", call);
 	if (words < LOBE_PROFILE_WORDS)
-		return lobe_fail(LOBE_ERROR_ARGUMENT, "words is %zu, and a table needs %d", words, LOBE_PROFILE_WORDS);
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: words is %zu, and a table needs %d", call, words,
+				 LOBE_PROFILE_WORDS);
 	return LOBE_OK;
 }
 
 /* A NaN is outside. */
-static lobe_status check_range(const char *name, float value, float lo, float hi)
+static lobe_status check_range(const char *call, const char *name, float value, float lo, float hi)
 {
 	if (value >= lo && value <= hi)
 		return LOBE_OK;
-	return lobe_fail(LOBE_ERROR_PARAMETER, "%s is %g, outside [%g, %g]", name, (double)value, (double)lo,
+	return lobe_fail(LOBE_ERROR_PARAMETER, "%s: %s is %g, outside [%g, %g]", call, name, (double)value, (double)lo,
 			 (double)hi);
 }
 
@@ -53,9 +51,9 @@ static double power_density(void *context, double r)
 
 lobe_status lobe_distribution_phong(lobe_distribution *out, float *table, size_t words, float n)
 {
-	lobe_status status = check(out, table, words);
+	lobe_status status = check("lobe_distribution_phong", out, table, words);
 	if (status == LOBE_OK)
-		status = check_range("n", n, 0.0f, LOBE_PHONG_N_MAX);
+		status = check_range("lobe_distribution_phong", "n", n, 0.0f, LOBE_PHONG_N_MAX);
 	if (status != LOBE_OK)
 		return status;
 	power p = {0.5 * (double)n + 2.0, 1.0};
@@ -67,9 +65,10 @@ lobe_status lobe_distribution_phong(lobe_distribution *out, float *table, size_t
 
 lobe_status lobe_distribution_student_t(lobe_distribution *out, float *table, size_t words, float gamma)
 {
-	lobe_status status = check(out, table, words);
+	lobe_status status = check("lobe_distribution_student_t", out, table, words);
 	if (status == LOBE_OK)
-		status = check_range("gamma", gamma, LOBE_STUDENT_T_GAMMA_MIN, LOBE_STUDENT_T_GAMMA_MAX);
+		status = check_range("lobe_distribution_student_t", "gamma", gamma, LOBE_STUDENT_T_GAMMA_MIN,
+				     LOBE_STUDENT_T_GAMMA_MAX);
 	if (status != LOBE_OK)
 		return status;
 	power p = {(double)gamma, 1.0 / ((double)gamma - 1.0)};
@@ -92,11 +91,11 @@ static double bernoulli(double x) { return x == 0.0 ? 1.0 : -x / expm1(-x); }
 
 lobe_status lobe_distribution_gtr(lobe_distribution *out, float *table, size_t words, float gamma, float alpha)
 {
-	lobe_status status = check(out, table, words);
+	lobe_status status = check("lobe_distribution_gtr", out, table, words);
 	if (status == LOBE_OK)
-		status = check_range("gamma", gamma, 0.01f, 100.0f);
+		status = check_range("lobe_distribution_gtr", "gamma", gamma, LOBE_GTR_GAMMA_MIN, LOBE_GTR_GAMMA_MAX);
 	if (status == LOBE_OK)
-		status = check_range("alpha", alpha, LOBE_ALPHA_MIN, 1.0f);
+		status = check_range("lobe_distribution_gtr", "alpha", alpha, LOBE_ALPHA_MIN, 1.0f);
 	if (status != LOBE_OK)
 		return status;
 	const double a = (double)alpha * (double)alpha, b = (double)gamma - 1.0, log_a = -2.0 * log((double)alpha);
@@ -113,9 +112,9 @@ lobe_status lobe_distribution_gtr(lobe_distribution *out, float *table, size_t w
 lobe_status lobe_distribution_tabulated(lobe_distribution *out, float *table, size_t words, lobe_profile_function f,
 					void *context)
 {
-	lobe_status status = check(out, table, words);
+	lobe_status status = check("lobe_distribution_tabulated", out, table, words);
 	if (status == LOBE_OK && !f)
-		status = lobe_fail(LOBE_ERROR_ARGUMENT, "f is null");
+		status = lobe_fail(LOBE_ERROR_ARGUMENT, "lobe_distribution_tabulated: f is NULL");
 	if (status != LOBE_OK)
 		return status;
 	return finish(out, table, lobe_distribution_make(LOBE_NDF_TABULATED), f, context);

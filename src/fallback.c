@@ -58,7 +58,7 @@ static lobe_status scene_create(lobe_scene *scene)
 	pair_device *const device = (pair_device *)scene->device;
 	pair_scene *const state = calloc(1, sizeof *state);
 	if (!state)
-		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
+		return lobe_out_of_memory("a scene of two devices");
 	lobe_device *const first = is_lost(device) ? NULL : device->first;
 	if (first) {
 		lobe_message before;
@@ -113,7 +113,7 @@ lobe_status lobe_fallback_open(lobe_device **out, lobe_device *first, lobe_devic
 	pair_device *const device = calloc(1, sizeof *device);
 	if (!device || pthread_mutex_init(&device->lock, NULL) != 0) {
 		free(device);
-		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_device_open: out of memory");
+		return lobe_out_of_memory("a device");
 	}
 	device->base.ops = &pair_ops;
 	device->first = first;

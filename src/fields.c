@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "internal.h"
 
@@ -31,8 +32,9 @@ enum { REAL_FIELD, UINT_FIELD, CHOICE_FIELD };
 #define RGB(lobe, member, min, max)                                                                                    \
 	REAL(lobe, member.r, min, max), REAL(lobe, member.g, min, max), REAL(lobe, member.b, min, max)
 
-/* One float rounding is allowed at the ends. */
-#define ALPHA_MIN 0.99999e-4
+/* Roundings are allowed at the ends, here and below: those of make, and of who wrote 1e-4f or 1/1.5f. */
+#define ALPHA_MIN (0.99999 * (double)LOBE_ALPHA_MIN)
+/* norm = 1/(pi alpha_x alpha_y) */
 #define STRETCH(lobe, member)                                                                                          \
 	REAL(lobe, member.alpha_x, ALPHA_MIN, 1), REAL(lobe, member.alpha_y, ALPHA_MIN, 1),                            \
 		REAL(lobe, member.inv_alpha_x, 1, 1 / ALPHA_MIN), REAL(lobe, member.inv_alpha_y, 1, 1 / ALPHA_MIN),    \
@@ -79,8 +81,8 @@ static const field fields_iridescent_dielectric[] = {
 	CHOICE(DELTA, iridescent_dielectric, glass.delta, 1), CHOICE(DENSE, iridescent_dielectric, glass.dense, 1),
 	FILM(iridescent_dielectric, 1.0001e6)};
 
-/* A table's handle has no domain here: lobe_check_table sees to it. */
-/* microfacet/linear.h */
+/* microfacet/linear.h: slopes and widths to 100; of two widths 1e-4 that are correlated by .9999 the inverse is up to
+ * 1/(1e-4 sqrt(1 - .9999^2)) = 7.1e5, and norm = 1/(pi det) is from 1/(pi 100^2) to 2.3e9. */
 #define SLOPES  100.01
 #define INVERSE 1e6
 #define LINEAR(lobe, map)                                                                                              \
@@ -89,6 +91,7 @@ static const field fields_iridescent_dielectric[] = {
 		REAL(lobe, map.mean_y, -SLOPES, SLOPES), REAL(lobe, map.ixx, -INVERSE, INVERSE),                       \
 		REAL(lobe, map.ixy, -INVERSE, INVERSE), REAL(lobe, map.iyx, -INVERSE, INVERSE),                        \
 		REAL(lobe, map.iyy, -INVERSE, INVERSE), REAL(lobe, map.norm, 3e-5, 1e10)
+/* A table's handle has no domain here: lobe_check_table sees to it. */
 #define DISTRIBUTION(lobe, member)                                                                                     \
 	CHOICE(NDF, lobe, member.ndf, LOBE_NDF_TABULATED),                                                             \
 		REAL(lobe, member.exponent, -(double)FLT_MAX, (double)FLT_MAX), REAL(lobe, member.width, 0, 1000),     \
@@ -113,10 +116,10 @@ static const field fields_microfacet_conductor[] = {
 static const field fields_microfacet_dielectric[] = {
 	MICROSURFACE(microfacet_dielectric),
 	FRESNEL(microfacet_dielectric),
-	REAL(microfacet_dielectric, eta, 0.99999e-3, 1000.01),
-	REAL(microfacet_dielectric, inv_eta, 0.99999e-3, 1000.01),
+	INDEX(microfacet_dielectric, eta),
+	INDEX(microfacet_dielectric, inv_eta),
 	CHOICE(STRATEGY, microfacet_dielectric, strategy, LOBE_STRATEGY_LAST),
-	UINT(microfacet_dielectric, transport, LOBE_TRANSPORT_IMPORTANCE),
+	TRANSPORT(microfacet_dielectric, transport),
 	UINT(microfacet_dielectric, delta, 1)};
 
 static const field fields_microfacet_diffuse[] = {MICROSURFACE(microfacet_diffuse),
@@ -162,6 +165,50 @@ int lobe_index_of_kind(uint32_t kind)
 	return -1;
 }
 
+static double value_of(const field *f, const lobe_bsdf *material)
+{
+	const unsigned char *const at = (const unsigned char *)&material->as + f->offset;
+	uint32_t u;
+	float x;
+	memcpy(&u, at, sizeof u);
+	memcpy(&x, at, sizeof x);
+	return f->type == REAL_FIELD ? (double)x : (double)u;
+}
+
+/* What make prepares belongs to the rest: of a material whose fields were changed afterwards it would shade something
+ * in between. make gives the same bits everywhere, so all but a rounding is a change. */
+static lobe_status check_prepared(const lobe_bsdf *materials, size_t i, int index)
+{
+	const lobe_bsdf made = lobe_remake(&materials[i]);
+	for (size_t k = 0; k < lobes[index].count; k++) {
+		const field *f = &lobes[index].fields[k];
+		const double value = value_of(f, &materials[i]), expected = value_of(f, &made);
+		if (fabs(value - expected) > 1e-6 * fabs(expected))
+			return lobe_fail(LOBE_ERROR_PARAMETER,
+					 "materials[%zu]: field %s of lobe_%s is %g, but lobe_%s_make gives %g for the "
+					 "others: make it anew instead of changing fields",
+					 i, f->name, lobe_param_name[index], value, lobe_param_name[index], expected);
+	}
+	if (!lobe_map_is_whole(&materials[i]))
+		return lobe_fail(LOBE_ERROR_PARAMETER,
+				 "materials[%zu]: surface.map of lobe_%s is not as lobe_linear_make and its like make it: "
+				 "the inverse does not belong to the matrix",
+				 i, lobe_param_name[index]);
+	return LOBE_OK;
+}
+
+static lobe_status out_of_domain(const field *f, size_t i, const char *lobe, double value)
+{
+	char text[32];
+	if (f->type == REAL_FIELD)
+		snprintf(text, sizeof text, "%g", value);
+	else
+		snprintf(text, sizeof text, "%.0f", value);
+	return lobe_fail(LOBE_ERROR_PARAMETER,
+			 "materials[%zu]: field %s of lobe_%s is %s, outside [%.3g, %.3g]; parameters come from lobe_%s_make", i,
+			 f->name, lobe, text, f->min, f->max, lobe);
+}
+
 lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i)
 {
 	const int index = lobe_index_of_kind(materials[i].kind);
@@ -172,25 +219,11 @@ lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i)
 		return LOBE_OK;
 	for (size_t k = 0; k < lobes[index].count; k++) {
 		const field *f = &lobes[index].fields[k];
-		const unsigned char *at = (const unsigned char *)&materials[i].as + f->offset;
-		double value;
-		if (f->type == REAL_FIELD) {
-			float x;
-			memcpy(&x, at, sizeof x);
-			value = (double)x;
-		} else {
-			uint32_t u;
-			memcpy(&u, at, sizeof u);
-			value = (double)u;
-		}
+		const double value = value_of(f, &materials[i]);
 		if (!(value >= f->min && value <= f->max))
-			return lobe_fail(LOBE_ERROR_PARAMETER,
-					 "materials[%zu]: field %s of lobe_%s is %g, outside [%.5g, %.5g]; "
-					 "parameters come from lobe_%s_make",
-					 i, f->name, lobe_param_name[index], value, f->min, f->max,
-					 lobe_param_name[index]);
+			return out_of_domain(f, i, lobe_param_name[index], value);
 	}
-	return LOBE_OK;
+	return check_prepared(materials, i, index);
 }
 
 int lobe_add_choices(const lobe_bsdf *material, uint32_t used[LOBE_CHOICES_COUNT])

@@ -127,10 +127,13 @@ static void native_close(lobe_device *base)
 static const lobe_device_ops native_ops = {native_close, native_scene_create, lobe_native_scene_destroy, native_run,
 					   NULL};
 
-/* The widest instruction set that runs here, or the one that LOBE_ISA names; its place in list, or -1 and a message. */
+/* The widest instruction set that runs here, or the one that LOBE_ISA names, if it is not empty; its place in list, or
+ * -1 and a message. */
 static int choose_isa(const isa *list)
 {
-	const char *asked = getenv("LOBE_ISA");
+	const char *const value = getenv("LOBE_ISA");
+	const char *const asked = value && *value ? value : NULL;
+	char names[64] = "";
 	for (int i = 0; i < LOBE_ISA_COUNT; i++) {
 		if (asked ? strcmp(asked, list[i].name) != 0 : !list[i].runs_here)
 			continue;
@@ -139,7 +142,11 @@ static int choose_isa(const isa *list)
 		lobe_set_error_message("LOBE_ISA=%s: this processor has no such instructions", asked);
 		return -1;
 	}
-	lobe_set_error_message("LOBE_ISA=%s: this library was not built for it", asked);
+	for (int i = 0; i < LOBE_ISA_COUNT; i++) {
+		const size_t end = strlen(names);
+		snprintf(names + end, sizeof names - end, " %s", list[i].name);
+	}
+	lobe_set_error_message("LOBE_ISA=%s: this library has%s", asked, names);
 	return -1;
 }
 
@@ -181,8 +188,10 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 		threads = here < 1 ? 1 : (here > 1024 ? 1024 : here);
 	}
 	native_device *device = calloc(1, sizeof *device);
-	if (!device)
-		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_device_open: out of memory");
+	if (!device || pthread_mutex_init(&device->lock, NULL) != 0) {
+		free(device);
+		return lobe_out_of_memory("a device");
+	}
 	device->base.ops = &native_ops;
 	device->base.takes_strides = 1;
 	device->split = list[chosen].split;
@@ -192,7 +201,6 @@ lobe_status lobe_native_open(lobe_device **out, size_t threads)
 	for (int lobe = 0; lobe < LOBE_COUNT + 2; lobe++)
 		for (int verb = 0; verb < LOBE_VERB_COUNT; verb++)
 			device->cost[lobe][verb] = 2.0;
-	pthread_mutex_init(&device->lock, NULL);
 	device->scratch = create_scratch(threads);
 	device->pool = lobe_pool_create(threads);
 	if (!device->scratch || !device->pool) {

@@ -16,7 +16,7 @@ lobe_status lobe_native_scene_create(lobe_scene *scene)
 	size_t none = scene->count;
 	lobe_native_scene *const state = calloc(1, sizeof *state + scene->count * sizeof *state->key);
 	if (!state)
-		return lobe_fail(LOBE_ERROR_MEMORY, "lobe_scene_create: out of memory");
+		return lobe_out_of_memory("a scene");
 	state->single = -1;
 	state->by_material = by_material;
 	for (int lobe = 0; lobe <= LOBE_COUNT; lobe++) {
@@ -50,12 +50,6 @@ typedef struct {
 	const float *in[LOBE_IN_COUNT];
 	void *out[LOBE_OUT_COUNT];
 } block;
-
-/* Word i of an array. */
-static void *word_at(const void *array, size_t stride, size_t i)
-{
-	return (unsigned char *)(uintptr_t)array + stride * i;
-}
 
 static void *room(lobe_native_scratch *s, int k, int sample)
 {
@@ -114,7 +108,7 @@ static void shade_key(const lobe_native_job *j, lobe_native_scratch *s, int lobe
 	for (int k = 0; k < LOBE_IN_COUNT; k++)
 		in[k] = s->in[k] + at;
 	for (int k = 0; k < LOBE_OUT_COUNT; k++)
-		out[k] = word_at(room(s, k, sample), 4, at);
+		out[k] = lobe_word_at(room(s, k, sample), 4, at);
 	if (lobe == LOBE_INDEX_NONE) {
 		for (int k = 0; k < LOBE_OUT_COUNT; k++)
 			memset(out[k], 0, 4 * n);
@@ -192,14 +186,14 @@ static block open_block(const lobe_job *job, lobe_native_scratch *s, size_t firs
 	lobe_strided pack;
 	pack.count = unpack->count = 0;
 	for (int k = 0; k < LOBE_IN_COUNT; k++) {
-		b.in[k] = word_at(job->in[k], job->in_stride[k], first);
+		b.in[k] = lobe_word_at(job->in[k], job->in_stride[k], first);
 		if (job->in_stride[k] != 4) {
 			lobe_strided_add(&pack, s->packed_in[k], b.in[k], job->in_stride[k]);
 			b.in[k] = s->packed_in[k];
 		}
 	}
 	if (job->material) {
-		b.material = word_at(job->material, job->material_stride, first);
+		b.material = lobe_word_at(job->material, job->material_stride, first);
 		if (job->material_stride != 4) {
 			lobe_strided_add(&pack, s->material, b.material, job->material_stride);
 			b.material = s->material;
@@ -208,7 +202,7 @@ static block open_block(const lobe_job *job, lobe_native_scratch *s, size_t firs
 	for (int k = 0; k < LOBE_OUT_COUNT; k++) {
 		if (!job->out[k])
 			continue;
-		b.out[k] = word_at(job->out[k], job->out_stride[k], first);
+		b.out[k] = lobe_word_at(job->out[k], job->out_stride[k], first);
 		if (job->out_stride[k] != 4) {
 			void *const packed = packed_room(s, k, lobe_verb_is_sample(job->verb));
 			lobe_strided_add(unpack, packed, b.out[k], job->out_stride[k]);
@@ -239,13 +233,10 @@ size_t lobe_native_split_block(const lobe_scene *scene)
 static size_t block_size(const lobe_native_job *j, int whole)
 {
 	const lobe_job *const job = j->job;
-	int apart = job->material && (job->material_stride != 4 || j->scene->count > 1);
 	if (whole < 0)
 		return lobe_native_split_block(j->scene);
-	for (int k = 0; k < LOBE_IN_COUNT; k++)
-		apart |= job->in_stride[k] != 4;
-	for (int k = 0; k < LOBE_OUT_COUNT; k++)
-		apart |= job->out[k] && job->out_stride[k] != 4;
+	/* Materials are looked up for a block of slots. */
+	const int apart = !lobe_is_packed(job) || (job->material && j->scene->count > 1);
 	return apart || !all_wanted(job) ? LOBE_NATIVE_BLOCK : j->chunk;
 }
 
@@ -261,9 +252,9 @@ static ahead look_ahead(const lobe_job *job, size_t first, size_t n)
 	ahead a = {0, {NULL}, 4 * n, 0};
 	for (int k = 0; n && k < LOBE_IN_COUNT; k++)
 		if (job->in_stride[k] == 4)
-			a.array[a.arrays++] = word_at(job->in[k], 4, first);
+			a.array[a.arrays++] = lobe_word_at(job->in[k], 4, first);
 	if (n && job->material_stride == 4)
-		a.array[a.arrays++] = word_at(job->material, 4, first);
+		a.array[a.arrays++] = lobe_word_at(job->material, 4, first);
 	return a;
 }
 

@@ -16,8 +16,6 @@ typedef struct {
 	cl_device_id id;
 } entry;
 
-static lobe_status out_of_memory(void) { return lobe_fail(LOBE_ERROR_MEMORY, "out of memory"); }
-
 /* Appends a platform's devices to list[0..count). */
 static lobe_status list_platform(const lobe_cl_functions *cl, cl_platform_id platform, entry **list, size_t *count)
 {
@@ -35,7 +33,7 @@ static lobe_status list_platform(const lobe_cl_functions *cl, cl_platform_id pla
 		*list = longer;
 	if (!ids || !longer) {
 		free(ids);
-		return out_of_memory();
+		return lobe_out_of_memory("the list of OpenCL devices");
 	}
 	error = cl->clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, n, ids, NULL);
 	if (error == CL_SUCCESS) {
@@ -61,7 +59,7 @@ static lobe_status list_devices(const lobe_cl_functions *cl, entry **list, size_
 		return lobe_cl_fail("clGetPlatformIDs", error);
 	platforms = calloc(n, sizeof *platforms);
 	if (!platforms)
-		return out_of_memory();
+		return lobe_out_of_memory("the list of OpenCL platforms");
 	error = cl->clGetPlatformIDs(n, platforms, NULL);
 	if (error != CL_SUCCESS)
 		status = lobe_cl_fail("clGetPlatformIDs", error);
@@ -268,7 +266,7 @@ lobe_status lobe_opencl_open(lobe_device **out, size_t index)
 
 	device = new_device(cl);
 	if (!device)
-		return out_of_memory();
+		return lobe_out_of_memory("an OpenCL device");
 	snprintf(prefix, sizeof prefix, "opencl:%lu", (unsigned long)index);
 	status = make_own(device, &chosen);
 	if (status == LOBE_OK)
@@ -348,7 +346,7 @@ lobe_status lobe_device_open_cl(lobe_device **out, struct _cl_context *context, 
 		return status;
 	device = new_device(cl);
 	if (!device)
-		return out_of_memory();
+		return lobe_out_of_memory("an OpenCL device");
 	status = retain(device, context, id, queue);
 	if (status == LOBE_OK)
 		status = inspect(device, "opencl");

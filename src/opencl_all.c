@@ -49,8 +49,6 @@ static void close_all(lobe_device *base)
 	free(device);
 }
 
-static lobe_status out_of_memory(void) { return lobe_fail(LOBE_ERROR_MEMORY, "out of memory"); }
-
 /* --- scenes ------------------------------------------------------------------------------------------------------- */
 
 static void free_state(const all_device *device, all_scene *state, size_t made)
@@ -68,14 +66,14 @@ static lobe_status scene_create(lobe_scene *scene)
 	const all_device *const device = (const all_device *)scene->device;
 	all_scene *const state = calloc(1, sizeof *state);
 	if (!state)
-		return out_of_memory();
+		return lobe_out_of_memory("a scene of several devices");
 	state->member = calloc(device->count, sizeof *state->member);
 	int whole = state->member != NULL;
 	for (int verb = 0; verb < LOBE_VERB_COUNT; verb++) {
 		state->measure[verb] = calloc(device->count, sizeof *state->measure[verb]);
 		whole = whole && state->measure[verb];
 	}
-	lobe_status status = whole ? LOBE_OK : out_of_memory();
+	lobe_status status = whole ? LOBE_OK : lobe_out_of_memory("a scene of several devices");
 	size_t made = 0;
 	while (status == LOBE_OK && made < device->count) {
 		status = lobe_scene_share(&state->member[made], scene, device->member[made]);
@@ -155,7 +153,7 @@ static lobe_status run(lobe_scene *scene, const lobe_job *job)
 		status = run_locked(&r);
 		pthread_mutex_unlock(&device->lock);
 	} else {
-		status = out_of_memory();
+		status = lobe_out_of_memory("a batch of several devices");
 	}
 	free(r.cut);
 	free(r.seconds);
@@ -203,17 +201,17 @@ lobe_status lobe_opencl_open_all(lobe_device **out)
 		return lobe_opencl_open(out, 0); /* which says why */
 	all_device *const device = calloc(1, sizeof *device);
 	if (!device)
-		return out_of_memory();
+		return lobe_out_of_memory("several OpenCL devices");
 	if (pthread_mutex_init(&device->lock, NULL) != 0) {
 		free(device);
-		return out_of_memory();
+		return lobe_out_of_memory("several OpenCL devices");
 	}
 	device->base.ops = &all_ops;
 	device->member = calloc(found, sizeof(lobe_device *));
 	device->failed = calloc(found, sizeof *device->failed);
-	status = device->member && device->failed ? open_members(device, found) : out_of_memory();
+	status = device->member && device->failed ? open_members(device, found) : lobe_out_of_memory("several OpenCL devices");
 	if (status == LOBE_OK && !(device->pool = lobe_pool_create(device->count)))
-		status = out_of_memory();
+		status = lobe_out_of_memory("several OpenCL devices");
 	if (status != LOBE_OK) {
 		close_all(&device->base);
 		return status;

@@ -1,3 +1,5 @@
+/* opencl_api.c - the OpenCL library of the system, loaded at run time (dlopen): what the program asks for never needs
+ * it to start. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "opencl_api.h"

@@ -81,7 +81,7 @@ static lobe_status get_program(lobe_cl_device *device, const char *options, int 
 	}
 	p = calloc(1, sizeof *p + size);
 	if (!p)
-		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
+		return lobe_out_of_memory("an OpenCL program");
 	memcpy(p->options, options, size);
 	status = build(device, p, mixed);
 	if (status != LOBE_OK) {
@@ -191,7 +191,7 @@ static lobe_status upload_numbers(lobe_cl_device *device, const lobe_scene *scen
 	lobe_status status;
 	size_t i;
 	if (!number)
-		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
+		return lobe_out_of_memory("a scene's materials");
 	for (i = 0; i < scene->count; i++) {
 		const uint32_t index = scene->index[i];
 		number[i] = index == LOBE_INDEX_NONE ? of_none : of_index ? of_index[index] : of_material[i];
@@ -250,7 +250,7 @@ lobe_status lobe_cl_scene_create(lobe_scene *scene)
 	lobe_cl_scene *const state = calloc(1, sizeof *state);
 	lobe_status status;
 	if (!state)
-		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
+		return lobe_out_of_memory("a scene on OpenCL");
 	pthread_mutex_lock(&device->lock);
 	status = fill_state(device, scene, state);
 	pthread_mutex_unlock(&device->lock);

@@ -298,7 +298,8 @@ static lobe_status take_buffers(lobe_cl_shading *b, const lobe_job *job)
 	int i;
 	for (i = 0; i < LOBE_IN_COUNT && status == LOBE_OK; i++) {
 		b->in[i] = (cl_mem)(void *)at(job->in[i], 0);
-		status = check_buffer(b->device, b->in[i], lobe_in_names[lobe_verb_is_sample(b->verb)][i], job->count);
+		status = check_buffer(b->device, b->in[i],
+				      lobe_array_name(lobe_verb_is_sample(b->verb), LOBE_OUT_COUNT + i), job->count);
 	}
 	if (job->material && status == LOBE_OK) {
 		b->material = (cl_mem)(void *)at(job->material, 0);
@@ -307,7 +308,7 @@ static lobe_status take_buffers(lobe_cl_shading *b, const lobe_job *job)
 	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
 		if (b->wanted[i]) {
 			b->out[i] = (cl_mem)job->out[i];
-			status = check_buffer(b->device, b->out[i], lobe_out_names[lobe_verb_is_sample(b->verb)][i],
+			status = check_buffer(b->device, b->out[i], lobe_array_name(lobe_verb_is_sample(b->verb), i),
 					      job->count);
 		}
 	}
@@ -321,7 +322,7 @@ static lobe_status read_materials(const lobe_cl_shading *b, size_t count, uint32
 	cl_int error;
 	size_t i;
 	if (!material)
-		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
+		return lobe_out_of_memory("the materials of a batch");
 	error = b->device->cl->clEnqueueReadBuffer(b->lane->queue, b->material, CL_TRUE, 0, 4 * count, material, 0,
 						   NULL, NULL);
 	if (error != CL_SUCCESS) {

@@ -52,14 +52,27 @@ static void *worker(void *argument)
 	return NULL;
 }
 
+/* 0: the system has none left, and none is kept. */
+static int create_locks(lobe_pool *pool)
+{
+	if (pthread_mutex_init(&pool->lock, NULL) != 0)
+		return 0;
+	if (pthread_cond_init(&pool->wake, NULL) == 0) {
+		if (pthread_cond_init(&pool->idle, NULL) == 0)
+			return 1;
+		pthread_cond_destroy(&pool->wake);
+	}
+	pthread_mutex_destroy(&pool->lock);
+	return 0;
+}
+
 lobe_pool *lobe_pool_create(size_t threads)
 {
 	lobe_pool *pool = calloc(1, sizeof *pool);
-	if (!pool)
+	if (!pool || !create_locks(pool)) {
+		free(pool);
 		return NULL;
-	pthread_mutex_init(&pool->lock, NULL);
-	pthread_cond_init(&pool->wake, NULL);
-	pthread_cond_init(&pool->idle, NULL);
+	}
 	pool->workers = calloc(threads, sizeof *pool->workers);
 	if (!pool->workers) {
 		lobe_pool_destroy(pool);

@@ -38,7 +38,7 @@ static double l_of_r(const curve *c, double u)
 
 static knot knot_at(const curve *c, double l)
 {
-	const double u = l > 0.0 ? log_of_r(c, l) : -40.0;
+	const double u = l > 0.0 ? log_of_r(c, l) : LOBE_SLOPE_U_MIN;
 	knot k;
 	k.l = l;
 	if (c->hidden) {

@@ -1,18 +1,22 @@
 /* slope_measure.c - panels of log r, split until Gauss-Legendre sums agree with those of their halves. */
 #include "slope_measure.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* From 4e-18 to 1.3e19, by 1/4, and by 1/16 between 6e-8 and 1e3, where a distribution's peak would be. */
-#define U_MIN  -40.0
-#define U_MAX  44.0
+#define U_MIN  LOBE_SLOPE_U_MIN
+#define U_MAX  LOBE_SLOPE_U_MAX
 #define U_FINE 16.0
 #define U_PEAK 7.0
 
 /* An f with jumps is split at each of them down to MIN_WIDTH; MAX_PANELS bounds what a noisy one costs. */
 #define MAX_PANELS 16384u
+/* Of them, those that fill() begins with (612) find room however much was split before them. */
+#define RESERVED   2048u
+#define MAX_DEPTH  60 /* a panel of 1/4, halved as often, is below every rounding of u */
 #define MIN_WIDTH  1e-7
 #define TOLERANCE  1e-11
 
@@ -39,7 +43,7 @@ static int panel_is_bad(const lobe_slope_measure *s, double u0, double u1, doubl
 	for (int i = 0; i < LOBE_PANEL_POINTS; i++) {
 		*r = exp(0.5 * (u0 + u1) + 0.5 * (u1 - u0) * s->x[i]);
 		const double v = s->f(s->context, *r);
-		if (!(v >= 0.0 && v <= 1.7e308))
+		if (!(v >= 0.0 && v <= DBL_MAX))
 			return 1;
 	}
 	return 0;
@@ -63,7 +67,7 @@ static lobe_status split(lobe_slope_measure *s, double u0, double u1)
 {
 	struct {
 		double u0, u1, sum;
-	} stack[64], now;
+	} stack[MAX_DEPTH + 2], now;
 	int depth = 0;
 	double r;
 	if (panel_is_bad(s, u0, u1, &r))
@@ -78,7 +82,7 @@ static lobe_status split(lobe_slope_measure *s, double u0, double u1)
 			return lobe_fail(LOBE_ERROR_PARAMETER, "f(%g) is not a finite number >= 0", r);
 		const double a = panel_sum(s, now.u0, middle), b = panel_sum(s, middle, now.u1);
 		const int done = fabs(a + b - now.sum) <= TOLERANCE * (a + b) || now.u1 - now.u0 < MIN_WIDTH ||
-				 s->panels + (size_t)depth > MAX_PANELS - 2048u || depth > 60;
+				 s->panels + (size_t)depth > MAX_PANELS - RESERVED || depth > MAX_DEPTH;
 		if (done) {
 			add_panel(s, now.u0, now.u1);
 			continue;
@@ -161,7 +165,7 @@ static lobe_status fill(lobe_slope_measure *s)
 	s->above[0] = sum;
 	if (!(sum > 0.0))
 		return lobe_fail(LOBE_ERROR_PARAMETER, "f is 0 everywhere");
-	if (!(sum <= 1.7e308) || !(1.0 / sum <= 1.7e308))
+	if (!(sum <= DBL_MAX) || !(1.0 / sum <= DBL_MAX))
 		return lobe_fail(LOBE_ERROR_PARAMETER, "f is too large or too small to be integrated: %g", sum);
 	/* A density that is not integrable at the normal would show as a share of its first panel. */
 	if (s->above[0] - s->above[1] > 1e-3 * sum)
@@ -274,9 +278,9 @@ static void add_far(const lobe_slope_measure *s, double z, size_t k, double *h, 
 void lobe_slope_hidden(const lobe_slope_measure *s, double z, double *h, double *fall)
 {
 	const double u = z > 0.0 ? log(z) : U_MIN - 1.0;
-	size_t k = u > U_MIN ? panel_of(s, u) : 0;
+	size_t k = u > U_MIN  ? panel_of(s, u) : 0;
 	*h = *fall = 0.0;
-	for (int near = 0; near < 3 && u > U_MIN && k < s->panels; near++, k++) {
+	for (int near = 0; near < 3 && u > U_MIN  && k < s->panels; near++, k++) {
 		const double r0 = exp(s->edge[k]), r1 = exp(s->edge[k + 1]);
 		if (r1 > z)
 			add_near(s, z, r0 > z ? r0 : z, r1, h, fall);

@@ -6,6 +6,10 @@
 #include "gauss_rule.h"
 #include "internal.h"
 
+/* Range of u = log r. */
+#define LOBE_SLOPE_U_MIN -40.0
+#define LOBE_SLOPE_U_MAX 44.0
+
 enum { LOBE_PANEL_POINTS = 10, LOBE_MOMENTS = 5 };
 
 /* Steepness is told by u = log r throughout. Panel k holds the rings from edge[k] to edge[k + 1], as LOBE_PANEL_POINTS
@@ -37,5 +41,9 @@ void lobe_slope_hidden(const lobe_slope_measure *s, double z, double *h, double 
 
 /* The rings between u0 and u1 as points: writes up to `room` of them and tells how many there are. */
 size_t lobe_slope_rings(const lobe_slope_measure *s, double u0, double u1, double *r, double *m, size_t room);
+
+/* The table of microfacet/profile.h for a density of slopes f, up to a factor; untouched on failure. (profile_table.c)
+ * */
+lobe_status lobe_profile_make(float *table, lobe_profile_function f, void *context);
 
 #endif

@@ -97,9 +97,6 @@ static slope slope_at(const lobe_slope_map *map, size_t i, size_t j)
 		const float *above = map->texels + y.after * stride_of(map);
 		s.x = difference(row[x.before], row[x.after], x.distance * map->texel_x);
 		s.y = difference(below[i], above[i], y.distance * map->texel_y);
-		/* A height that no neighbour's difference looks at must be a number too. */
-		if (!isfinite(row[i]))
-			s.x = (double)NAN;
 	} else {
 		double n[3];
 		for (size_t k = 0; k < 3; k++) {
@@ -120,8 +117,24 @@ static slope slope_at(const lobe_slope_map *map, size_t i, size_t j)
 
 static lobe_status no_slope(const lobe_slope_map *map, size_t i, size_t j)
 {
-	return lobe_fail(LOBE_ERROR_ARGUMENT, "map.texels: no finite slope at column %zu, row %zu%s", i, j,
-			 map->kind == LOBE_SLOPES_HEIGHT ? "" : ": a normal must be finite and have z > 0");
+	if (map->kind == LOBE_SLOPES_HEIGHT)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "map.texels: the slope at column %zu, row %zu is too steep", i, j);
+	return lobe_fail(LOBE_ERROR_ARGUMENT,
+			 "map.texels: no finite slope at column %zu, row %zu: a normal must be finite and have z > 0", i,
+			 j);
+}
+
+/* Heights are numbers, whether a neighbour's slope looks at them or not. */
+static lobe_status check_heights(const lobe_slope_map *map)
+{
+	for (size_t j = 0; map->kind == LOBE_SLOPES_HEIGHT && j < map->height; j++)
+		for (size_t i = 0; i < map->width; i++) {
+			const float height = map->texels[j * stride_of(map) + i];
+			if (!isfinite(height))
+				return lobe_fail(LOBE_ERROR_ARGUMENT, "map.texels: the height at column %zu, row %zu is %g",
+						 i, j, (double)height);
+		}
+	return LOBE_OK;
 }
 
 /* Moments of the slope; what is not finite shows in their sum. */
@@ -178,6 +191,8 @@ lobe_status lobe_slope_stats_measure(lobe_slope_stats *stats, const lobe_slope_m
 	if (!stats)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "stats is NULL");
 	lobe_status status = check_map(map);
+	if (status == LOBE_OK)
+		status = check_heights(map);
 	if (status == LOBE_OK)
 		status = mean_moments(&raw, map, 0.0, 0.0);
 	if (status == LOBE_OK)
@@ -270,10 +285,23 @@ static void coarsen(lobe_slope_moments *coarse, const lobe_slope_moments *fine, 
 	}
 }
 
+/* Every slope is a number whose square is one. */
+static lobe_status check_slopes(const lobe_slope_map *map)
+{
+	const lobe_status status = check_heights(map);
+	if (status != LOBE_OK)
+		return status;
+	for (size_t j = 0; j < map->height; j++)
+		for (size_t i = 0; i < map->width; i++)
+			if (!are_finite(moments_at(map, i, j)))
+				return no_slope(map, i, j);
+	return LOBE_OK;
+}
+
 lobe_status lobe_slope_pyramid(lobe_slope_moments *pyramid, size_t count, const lobe_slope_map *map)
 {
 	size_t needed = 0;
-	const lobe_status status = check_map(map);
+	lobe_status status = check_map(map);
 	if (status != LOBE_OK)
 		return status;
 	size_t width = map->width, height = map->height;
@@ -285,13 +313,12 @@ lobe_status lobe_slope_pyramid(lobe_slope_moments *pyramid, size_t count, const 
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "pyramid is not aligned as double");
 	if (count < needed)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "count = %zu: this pyramid has %zu elements", count, needed);
+	status = check_slopes(map);
+	if (status != LOBE_OK)
+		return status;
 	for (size_t j = 0; j < height; j++)
-		for (size_t i = 0; i < width; i++) {
-			const lobe_slope_moments m = moments_at(map, i, j);
-			if (!are_finite(m))
-				return no_slope(map, i, j);
-			pyramid[j * width + i] = m;
-		}
+		for (size_t i = 0; i < width; i++)
+			pyramid[j * width + i] = moments_at(map, i, j);
 	for (size_t level = 1; level < levels; level++) {
 		coarsen(pyramid + width * height, pyramid, width, height);
 		pyramid += width * height;

@@ -42,3 +42,5 @@ void lobe_set_error_message(const char *format, ...)
 	vsnprintf(message, sizeof message, format, args);
 	va_end(args);
 }
+
+lobe_status lobe_out_of_memory(const char *what) { return lobe_fail(LOBE_ERROR_MEMORY, "out of memory for %s", what); }

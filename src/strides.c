@@ -4,24 +4,13 @@
 
 #include "strides.h"
 
-enum { ARRAYS = LOBE_OUT_COUNT + LOBE_IN_COUNT + 1 };
-
-/* An array of the job as a caller knows it. Outputs come first, material last. */
+/* An array of the job as a caller knows it. */
 typedef struct {
 	const char *name;
 	uintptr_t at; /* 0: not there */
 	size_t stride;
 	uintptr_t last; /* its last word, once check_array has passed it */
 } array;
-
-static void list_arrays(array *a, const lobe_job *job, int sample)
-{
-	for (int i = 0; i < LOBE_OUT_COUNT; i++)
-		a[i] = (array){lobe_out_names[sample][i], (uintptr_t)job->out[i], job->out_stride[i], 0};
-	for (int i = 0; i < LOBE_IN_COUNT; i++)
-		a[LOBE_OUT_COUNT + i] = (array){lobe_in_names[sample][i], (uintptr_t)job->in[i], job->in_stride[i], 0};
-	a[ARRAYS - 1] = (array){"material", (uintptr_t)job->material, job->material_stride, 0};
-}
 
 /* Its first and last byte are in memory, its words and their distance aligned. */
 static lobe_status check_array(array *a, size_t count, const char *call)
@@ -59,15 +48,15 @@ static int overlap(const array *a, const array *b)
 
 lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call)
 {
-	array a[ARRAYS];
-	list_arrays(a, job, sample);
-	for (int i = 0; i < ARRAYS; i++) {
+	array a[LOBE_ARRAY_COUNT];
+	for (int i = 0; i < LOBE_ARRAY_COUNT; i++) {
+		a[i] = (array){lobe_array_name(sample, i), (uintptr_t)lobe_array(job, i), lobe_array_stride(job, i), 0};
 		const lobe_status status = a[i].at ? check_array(&a[i], job->count, call) : LOBE_OK;
 		if (status != LOBE_OK)
 			return status;
 	}
 	for (int i = 0; i < LOBE_OUT_COUNT; i++)
-		for (int k = i + 1; a[i].at && k < ARRAYS; k++)
+		for (int k = i + 1; a[i].at && k < LOBE_ARRAY_COUNT; k++)
 			if (a[k].at && a[i].at <= a[k].last && a[k].at <= a[i].last && overlap(&a[i], &a[k]))
 				return lobe_fail(LOBE_ERROR_ARGUMENT, "%s: output batch->%s overlaps batch->%s", call,
 						 a[i].name, a[k].name);
@@ -76,7 +65,7 @@ lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call)
 
 /* --- packing ----------------------------------------------------------------------------------------------------- */
 
-typedef uint32_t __attribute__((may_alias)) word;
+typedef lobe_word word;
 #define WORD(array, stride, i) (*(word *)(void *)((unsigned char *)(array) + (stride) * (i)))
 
 /* Three arrays at a time, mostly the components of one vector: a third faster than one by one. */
@@ -139,26 +128,11 @@ void lobe_unpack(const lobe_strided *s, size_t n)
 #define LOBE_PACK_MAX ((size_t)1 << 17)
 #endif
 
-static int packed(const lobe_job *job)
-{
-	int yes = !job->material || job->material_stride == 4;
-	for (int i = 0; i < LOBE_IN_COUNT; i++)
-		yes &= job->in_stride[i] == 4;
-	for (int i = 0; i < LOBE_OUT_COUNT; i++)
-		yes &= !job->out[i] || job->out_stride[i] == 4;
-	return yes;
-}
-
-static unsigned char *byte_at(const void *base, size_t stride, size_t i)
-{
-	return (unsigned char *)(uintptr_t)base + stride * i;
-}
-
 /* Elements [first, first + n) of an input: where they are, if packed, else in the buffer, once pack is done. */
 static const void *packed_input(lobe_strided *pack, const void *from, size_t stride, size_t first,
 				unsigned char *buffer)
 {
-	const unsigned char *const at = byte_at(from, stride, first);
+	const void *const at = lobe_word_at(from, stride, first);
 	if (stride == 4)
 		return at;
 	lobe_strided_add(pack, buffer, at, stride);
@@ -181,9 +155,9 @@ static lobe_status run_part(lobe_scene *scene, const lobe_job *job, size_t first
 		part.out_stride[i] = 4;
 		if (!job->out[i])
 			continue;
-		part.out[i] = stride == 4 ? byte_at(job->out[i], 4, first) : buffer;
+		part.out[i] = stride == 4 ? lobe_word_at(job->out[i], 4, first) : buffer;
 		if (stride != 4)
-			lobe_strided_add(&unpack, buffer, byte_at(job->out[i], stride, first), stride);
+			lobe_strided_add(&unpack, buffer, lobe_word_at(job->out[i], stride, first), stride);
 	}
 	lobe_pack(&pack, n);
 	const lobe_status status = scene->device->ops->run(scene, &part);
@@ -197,11 +171,11 @@ lobe_status lobe_run_job(lobe_scene *scene, const lobe_job *job)
 	lobe_status status = LOBE_OK;
 	if (job->count == 0)
 		return LOBE_OK;
-	if (scene->device->takes_strides || packed(job))
+	if (scene->device->takes_strides || lobe_is_packed(job))
 		return scene->device->ops->run(scene, job);
 	unsigned char *const buffer = malloc((LOBE_IN_COUNT + 1 + LOBE_OUT_COUNT) * 4 * LOBE_PACK_MAX);
 	if (!buffer)
-		return lobe_fail(LOBE_ERROR_MEMORY, "out of memory");
+		return lobe_out_of_memory("packing a batch of strides");
 	for (size_t first = 0; first < job->count && status == LOBE_OK; first += LOBE_PACK_MAX)
 		status = run_part(scene, job, first,
 				  job->count - first < LOBE_PACK_MAX ? job->count - first : LOBE_PACK_MAX, buffer);

@@ -5,12 +5,11 @@
 #include "internal.h"
 
 /* Arrays to be packed or unpacked, up to all that a batch has. */
-enum { LOBE_STRIDED_MAX = LOBE_IN_COUNT + LOBE_OUT_COUNT + 1 };
 typedef struct {
 	int count;
-	void *packed[LOBE_STRIDED_MAX];
-	void *apart[LOBE_STRIDED_MAX]; /* stride[a] bytes from word to word */
-	size_t stride[LOBE_STRIDED_MAX];
+	void *packed[LOBE_ARRAY_COUNT];
+	void *apart[LOBE_ARRAY_COUNT]; /* stride[a] bytes from word to word */
+	size_t stride[LOBE_ARRAY_COUNT];
 } lobe_strided;
 
 static inline void lobe_strided_add(lobe_strided *s, void *packed, const void *apart, size_t stride)

@@ -48,7 +48,7 @@ static void test_arguments(void)
 	refused(LOBE_ERROR_ARGUMENT, lobe_distribution_gtr(&d, table, 0, 1.0f, 0.5f), "words");
 	refused(LOBE_ERROR_ARGUMENT, lobe_distribution_student_t(&d, NULL, ROOM, 2.0f), "table");
 	refused(LOBE_ERROR_ARGUMENT, lobe_distribution_tabulated(&d, NULL, ROOM, gaussian, NULL), "table");
-	refused(LOBE_ERROR_ARGUMENT, lobe_distribution_tabulated(&d, table, ROOM, NULL, NULL), "f is null");
+	refused(LOBE_ERROR_ARGUMENT, lobe_distribution_tabulated(&d, table, ROOM, NULL, NULL), "lobe_distribution_tabulated: f is NULL");
 }
 
 static void test_domains(void)
@@ -160,10 +160,20 @@ static void test_factor(void)
 					 lobe_distribution_hidden(d, lobe_vec3_make(1.0f, 0.0f, z)));
 }
 
+static void refused_table(lobe_device *device, lobe_microfacet_diffuse p, uintptr_t address, const char *words)
+{
+	p.surface.distribution.table = lobe_table_at((uint64_t)address);
+	const lobe_bsdf b = lobe_bsdf_from_microfacet_diffuse(p);
+	lobe_scene *scene = NULL;
+	TEST_ASSERT_EQUAL(LOBE_ERROR_PARAMETER, lobe_scene_create(&scene, device, &b, 1));
+	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), words), lobe_error_message());
+	TEST_ASSERT_NULL(scene);
+}
+
 /* A scene takes a material with its table, and neither one without nor one with something else in its place. */
 static void test_scene_wants_the_table(void)
 {
-	static const float no_table[4] = {1.5f, 0.0f, 0.0f, 0.0f};
+	static float spoilt[LOBE_PROFILE_WORDS];
 	lobe_device *device;
 	lobe_scene *scene = NULL;
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, "native:1"));
@@ -173,13 +183,14 @@ static void test_scene_wants_the_table(void)
 	lobe_bsdf b = lobe_bsdf_from_microfacet_diffuse(p);
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_create(&scene, device, &b, 1), lobe_error_message());
 	lobe_scene_destroy(scene);
-	b = lobe_bsdf_from_microfacet_diffuse(lobe_microfacet_diffuse_with_table(p, lobe_table_at(0)));
-	TEST_ASSERT_EQUAL(LOBE_ERROR_PARAMETER, lobe_scene_create(&scene, device, &b, 1));
-	TEST_ASSERT_NOT_NULL(strstr(lobe_error_message(), "needs a table"));
-	b = lobe_bsdf_from_microfacet_diffuse(
-		lobe_microfacet_diffuse_with_table(p, lobe_table_at((uint64_t)(uintptr_t)no_table)));
-	TEST_ASSERT_EQUAL(LOBE_ERROR_PARAMETER, lobe_scene_create(&scene, device, &b, 1));
-	TEST_ASSERT_NOT_NULL(strstr(lobe_error_message(), "not the length of a table"));
+	refused_table(device, p, 0, "needs a table and has none");
+	refused_table(device, p, (uintptr_t)table + 1, "needs a table and has something else");
+	memcpy(spoilt, table, sizeof spoilt);
+	spoilt[0] = 3.0f;
+	refused_table(device, p, (uintptr_t)spoilt, "begins with 3, not with its length");
+	memcpy(spoilt, table, sizeof spoilt);
+	spoilt[100] = NAN;
+	refused_table(device, p, (uintptr_t)spoilt, "word 100 of the table");
 	lobe_device_close(device);
 }
 
