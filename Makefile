@@ -3,7 +3,9 @@
 CC ?= cc
 AR ?= ar
 PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
 DESTDIR ?=
+STRIP ?= strip
 CFLAGS ?= -O2 -g
 
 VERSION := 0.1.0
@@ -65,6 +67,8 @@ LOBE_OPENCL ?= 1
 LOBE_NATIVE ?= 1
 # Whose objects depend on nothing that such builds differ in, so that they can share them.
 ROW_DIR ?= $(B)/obj
+ROW_FLAGS := $(if $(filter $(B)/obj,$(ROW_DIR)),$(B)/obj/flags)
+FLAGS_OF_ALL = $(CC) $(LIB_CFLAGS) $(ROW_CFLAGS)
 
 NATIVE_SOURCES := $(filter-out src/native_split.c,$(wildcard src/native*.c))
 OPENCL_SOURCES := $(wildcard src/opencl*.c)
@@ -90,17 +94,21 @@ $(error LOBE_NATIVE=0 LOBE_OPENCL=0 leaves no backend)
 endif
 OBJECTS := $(patsubst src/%.c,$(B)/obj/%.o,$(SOURCES)) $(LOOPS) $(OPENCL_TEXT)
 
-all: $(B)/liblobe.a $(B)/liblobe.so $(B)/minimal $(B)/batch
+all: $(B)/liblobe.a $(B)/liblobe.so $(B)/minimal $(if $(filter-out 0,$(LOBE_NATIVE)),$(B)/batch)
 
-$(B)/obj $(B)/gen $(B)/tests $(B)/bench:
+$(sort $(B)/obj $(ROW_DIR)) $(B)/gen $(B)/tests $(B)/bench:
 	@mkdir -p $@
 
-$(B)/obj/%.o: src/%.c $(HEADERS) | $(B)/obj
+# Changes when the compiler or its options do, so that what they gave before is compiled anew.
+$(B)/obj/flags: FORCE | $(B)/obj
+	@echo '$(FLAGS_OF_ALL)' | cmp -s - $@ || echo '$(FLAGS_OF_ALL)' > $@
+
+$(B)/obj/%.o: src/%.c $(HEADERS) $(B)/obj/flags | $(B)/obj
 	@echo "  cc    $@"
 	$(Q)$(CC) $(LIB_CFLAGS) -c $< -o $@
 
 define ROW_RULE
-$(ROW_DIR)/rows_$(1)_$(2).o: src/rows.c $(HEADERS) | $(B)/obj
+$(ROW_DIR)/rows_$(1)_$(2).o: src/rows.c $(HEADERS) $(ROW_FLAGS) | $(ROW_DIR)
 	@echo "  cc    $$@"
 	@rm -f $$(@:.o=.vec)
 	$(Q)$(CC) $(ROW_CFLAGS) $(ISA_$(1)) $(TUNE_$(1)_$(2)) $(PLAIN_$(2)) $$(if $(ROW_REPORT),$(ROW_REPORT)$$(@:.o=.vec)) -DLOBE_ROW=$(2) -DLOBE_ROW_ISA=$(1) \
@@ -109,14 +117,14 @@ endef
 $(foreach i,$(ISAS),$(foreach l,$(LOBES),$(eval $(call ROW_RULE,$(i),$(l)))))
 
 define SPLIT_RULE
-$(ROW_DIR)/native_split_$(1).o: src/native_split.c $(HEADERS) | $(B)/obj
+$(ROW_DIR)/native_split_$(1).o: src/native_split.c $(HEADERS) $(ROW_FLAGS) | $(ROW_DIR)
 	@echo "  cc    $$@"
 	$(Q)$(CC) $(LIB_CFLAGS) -O3 $(ISA_$(1)) -DLOBE_ROW_ISA=$(1) -c src/native_split.c -o $$@
 endef
 $(foreach i,$(SPLIT_ISAS),$(eval $(call SPLIT_RULE,$(i))))
 
 define LINKED_RULE
-$(ROW_DIR)/linked_$(1).o: src/linked.c $(HEADERS) | $(B)/obj
+$(ROW_DIR)/linked_$(1).o: src/linked.c $(HEADERS) $(ROW_FLAGS) | $(ROW_DIR)
 	@echo "  cc    $$@"
 	$(Q)$(CC) $(LIB_CFLAGS) -DLOBE_ROW=$(1) -c src/linked.c -o $$@
 endef
@@ -256,8 +264,10 @@ test-long:
 	@CC="$(CC)" LOBE_TEST_LONG=1 tests/run.sh $(LONG_TESTS) $(call longest_first,$(SHORT_TESTS))
 
 # Writes the known-answer vectors anew; git diff shows what changed.
-vectors: $(B)/tests/tool_vectors
-	$(B)/tests/tool_vectors tests/vectors
+vectors:
+	@./deps.sh test
+	+@$(MAKE) --no-print-directory $(JOBS) $(B)/tests/tool_vectors
+	@$(B)/tests/tool_vectors tests/vectors
 
 BENCH_COMMON := examples/common/folders.c examples/common/processors.c
 THROUGHPUT := $(filter-out bench/strategies.c bench/hand_rows.c bench/peak.c,$(wildcard bench/*.c)) $(BENCH_COMMON)
@@ -315,7 +325,8 @@ $(B)/report/bench/report/approximations_loops.o $(B)/report/bench/report/approxi
 	$(B)/report/bench/report/approximations_double.o $(B)/report/bench/report/approximations_field.o: \
 	private REPORT_CFLAGS += $(ROW_CFLAGS)
 $(B)/report/bench/report/approximations_double.o: private REPORT_CFLAGS += -DLOBE_DOUBLE=1
-$(B)/report/%.o: %.c $(HEADERS) $(wildcard bench/*.h bench/report/*.h examples/*/*.h tests/*.h)
+REPORT_HEADERS := $(wildcard bench/*.h bench/report/*.h examples/*/*.h tests/*.h)
+$(B)/report/%.o: %.c $(HEADERS) $(REPORT_HEADERS)
 	@mkdir -p $(@D)
 	@echo "  cc    $@"
 	$(Q)$(CC) $(REPORT_CFLAGS) -c $< -o $@
@@ -331,7 +342,7 @@ $(B)/bench/report: $(B)/report/bench/report/main.o $(B)/bench/libreport.a $(B)/t
 
 REPORT_TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_report*.c tests/test_stability*.c))
 $(REPORT_TESTS:=.o): private TEST_CFLAGS += -Ibench/report -Iexamples/common -Iexamples/gallery
-$(REPORT_TESTS:=.o): $(wildcard bench/report/*.h)
+$(REPORT_TESTS:=.o): $(REPORT_HEADERS)
 $(REPORT_TESTS): $(B)/tests/%: $(B)/tests/%.o $(B)/bench/libreport.a $(B)/tests/libtest.a $(B)/liblobe.a
 	@echo "  link  $@"
 	$(Q)$(CC) $(CFLAGS) $< $(REPORT_LIBS) -o $@
@@ -351,8 +362,21 @@ readme:
 	@bench/report/readme.sh
 
 # Mitsuba 3 beside lobe, in turn; skipped, with a word why, where it cannot be installed. OPTIONS: of bench/peers/mitsuba.py.
-bench-peers: $(B)/bench/throughput
+bench-peers:
+	@./deps.sh all
+	+@$(MAKE) --no-print-directory $(JOBS) $(B)/bench/throughput
 	@bench/peers/mitsuba.sh $(OPTIONS)
+
+# PoCL beside Intel's OpenCL runtime for processors; skipped, with a word why, where that cannot be had.
+$(B)/bench/opencl: bench/peers/opencl.c bench/race.c bench/timing.c bench/inputs.c bench/scenes.c bench/machine.c $(BENCH_COMMON) \
+		$(wildcard bench/*.h) $(B)/tests/libtest.a $(B)/liblobe.a | $(B)/bench
+	@echo "  link  $@"
+	$(Q)$(CC) $(TEST_CFLAGS) -I. -Iexamples/common $(filter %.c,$^) $(filter %.a,$^) -o $@ $(TEST_LIBS)
+
+bench-opencl:
+	@./deps.sh test
+	+@$(MAKE) --no-print-directory $(JOBS) $(B)/bench/opencl
+	@bench/peers/opencl.sh
 
 check:
 	@./deps.sh all
@@ -363,20 +387,28 @@ deps:
 
 # --- installation -----------------------------------------------------------------------------------------------------
 
+INSTALLED_LIBS := liblobe.a liblobe.so liblobe.so.0 liblobe.so.$(VERSION)
+
+# Without what only a debugger wants, a third of the size.
 install: $(B)/liblobe.a $(B)/liblobe.so
-	install -d $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	install -d $(DESTDIR)$(LIBDIR)/pkgconfig
 	for dir in lobe lobe/backend lobe/core lobe/microfacet lobe/lobes; do \
-		install -d $(DESTDIR)$(PREFIX)/include/$$dir; \
-		install -m 644 include/$$dir/*.* $(DESTDIR)$(PREFIX)/include/$$dir; \
+		install -d $(DESTDIR)$(PREFIX)/include/$$dir && \
+		install -m 644 include/$$dir/*.* $(DESTDIR)$(PREFIX)/include/$$dir || exit 1; \
 	done
-	install -m 644 $(B)/liblobe.a $(DESTDIR)$(PREFIX)/lib
-	install -m 755 $(B)/liblobe.so $(DESTDIR)$(PREFIX)/lib/liblobe.so.$(VERSION)
-	ln -sf liblobe.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/liblobe.so.0
-	ln -sf liblobe.so.0 $(DESTDIR)$(PREFIX)/lib/liblobe.so
-	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$${prefix}/lib' '' 'Name: lobe' \
+	install -m 644 $(B)/liblobe.a $(DESTDIR)$(LIBDIR)
+	install -m 755 $(B)/liblobe.so $(DESTDIR)$(LIBDIR)/liblobe.so.$(VERSION)
+	$(STRIP) --strip-debug $(DESTDIR)$(LIBDIR)/liblobe.a $(DESTDIR)$(LIBDIR)/liblobe.so.$(VERSION)
+	ln -sf liblobe.so.$(VERSION) $(DESTDIR)$(LIBDIR)/liblobe.so.0
+	ln -sf liblobe.so.0 $(DESTDIR)$(LIBDIR)/liblobe.so
+	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' 'libdir=$(patsubst $(PREFIX)/%,$${prefix}/%,$(LIBDIR))' '' 'Name: lobe' \
 		'Description: BSDF lobes in C99 and OpenCL, with the same bits' 'Version: $(VERSION)' \
-		'Cflags: -I$${includedir} -ffp-contract=off' 'Libs: -L$${libdir} -llobe' 'Libs.private: $(LIBS)' \
-		> $(DESTDIR)$(PREFIX)/lib/pkgconfig/lobe.pc
+		'Cflags: -I$${includedir} -ffp-contract=off' 'Libs: -L$${libdir} -llobe -lm' 'Libs.private: $(LIBS)' \
+		> $(DESTDIR)$(LIBDIR)/pkgconfig/lobe.pc
+
+uninstall:
+	rm -rf $(DESTDIR)$(PREFIX)/include/lobe
+	rm -f $(addprefix $(DESTDIR)$(LIBDIR)/,$(INSTALLED_LIBS) pkgconfig/lobe.pc)
 
 clean:
 	rm -rf $(B) out
@@ -393,6 +425,7 @@ help:
 		'make test-long  the slow sweeps too (an hour)' \
 		'make bench      throughput, its ceilings and scaling, build times, what pruning saves; out/bench/*.csv' \
 		'make bench-peers  Mitsuba 3 beside lobe (installs it in build/peers); out/bench/peers.csv' \
+		'make bench-opencl  PoCL beside Intel'"'"'s OpenCL runtime (installs it in build/others); out/bench/opencl.csv' \
 		'make figures    D, G1, masking, albedo, visible normals: out/figures/*.png' \
 		'make report     error against run time, stability, furnaces: out/report/report.md; QUICK=1 in minutes' \
 		'make probes     fetches real light probes for the report and the gallery into build/probes' \
@@ -400,11 +433,11 @@ help:
 		'make check      static analysis and sanitizers' \
 		'make vectors    writes tests/vectors/ anew' \
 		'make deps       installs all that the targets above need' \
-		'make install    PREFIX=/usr/local DESTDIR=' \
+		'make install    PREFIX=/usr/local LIBDIR=PREFIX/lib DESTDIR=; make uninstall' \
 		'make LOBE_OPENCL=0, make LOBE_NATIVE=0   the library without that backend' \
 		'make clean      removes build/ and out/'
 
-.PHONY: FORCE all run test test-long vectors bench bench-peers figures report probes readme check deps install clean help
+.PHONY: FORCE all run test test-long vectors bench bench-peers bench-opencl figures report probes readme check deps install uninstall clean help
 
 # Several goals at once (make clean all) in their order.
 ifeq ($(MAKELEVEL),0)

@@ -37,7 +37,7 @@ one_lobe() {
 # every_header COMPILER: each header is complete by itself, but for the parts of core/real.h.
 every_header() {
 	for header in include/lobe/*.h include/lobe/core/*.h include/lobe/microfacet/*.h include/lobe/lobes/*.h; do
-		! head -n 1 "$header" | grep -q 'included by real.h' || continue
+		! head -n 1 "$header" | grep -q 'a part of real.h' || continue
 		# shellcheck disable=SC2086
 		printf '#include "%s"\ntypedef int something;\n' "${header#include/}" | "$1" $warnings -Iinclude -x c -c - -o $out/header.o || return 1
 	done
@@ -131,6 +131,18 @@ check "the shared library shows its API alone" shows_its_api
 # Options that would break the bits, or the layout of lobe_bsdf, are refused.
 refuses() { ! printf '#include "lobe/lobe.h"\nint x;\n' | $CC -std=c99 -Iinclude "$@" -x c -c - -o $out/refused.o 2>/dev/null; }
 check "refuses -ffast-math" refuses -ffast-math
+
+# Processors with half precision, in GNU mode: FLT_EVAL_METHOD is 16, and float is float all the same.
+half_precision() { printf '#include "lobe/lobe.h"\nint x;\n' | $CC -std=gnu17 -march=sapphirerapids -Iinclude -fsyntax-only -x c -; }
+if $CC -march=sapphirerapids -E -x c /dev/null >/dev/null 2>&1; then
+	check "headers for a processor with half precision" half_precision
+else
+	skip "half precision" "the compiler knows no such processor"
+fi
+
+# windows.h has these for macros.
+windows() { printf '#define near\n#define far\n#define small char\n#include "lobe/lobe.h"\nint x;\n' | $CC -std=c99 -Iinclude -fsyntax-only -x c -; }
+check "headers after windows.h" windows
 check "refuses batches without every lobe" refuses -DLOBE_HAS_LAMBERT=0
 
 # README's C program builds without a warning and runs. (Its kernel: test_opencl.c.)
@@ -144,7 +156,17 @@ check "README's program" readme
 installs() {
 	rm -rf $out/root
 	make -s install DESTDIR="$PWD/$out/root" PREFIX=/usr || return 1
-	printf '#include <lobe/lobe.h>\nint main(void) { return lobe_metal_find("gold") != LOBE_METAL_GOLD; }\n' >$out/user.c
+	# One function of the library, and one of the headers, whose root is one of libm.
+	cat >$out/user.c <<-'END'
+		#include <lobe/lobe.h>
+		int main(int argc, char **argv)
+		{
+			const lobe_vec3 wo = lobe_vec3_make(0.0f, 0.6f * (float)argc, 0.8f);
+			const lobe_ggx_dielectric glass = lobe_ggx_dielectric_make(0.1f, 0.1f, 1.5f);
+			(void)argv;
+			return lobe_metal_find("gold") != LOBE_METAL_GOLD || !(lobe_ggx_dielectric_pdf(glass, wo, wo) > 0.0f);
+		}
+	END
 	flags=$(PKG_CONFIG_PATH=$out/root/usr/lib/pkgconfig pkg-config --define-variable=prefix="$PWD/$out/root/usr" --cflags --libs lobe) || return 1
 	# shellcheck disable=SC2086
 	$CC $out/user.c $flags -o $out/user && LD_LIBRARY_PATH=$out/root/usr/lib $out/user
