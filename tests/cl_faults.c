@@ -216,6 +216,9 @@ static void *wrap_clEnqueueMapBuffer(cl_command_queue q, cl_mem b, cl_bool w, cl
 int cl_faults_install(void)
 {
 	size_t count = 0;
+	/* What is there already would be taken for OpenCL itself, and call itself for ever. */
+	if (cl_faults.table)
+		return 1;
 	if (lobe_device_count("opencl", &count) != LOBE_OK || count == 0)
 		return 0;
 	cl_faults.table = (lobe_cl_functions *)(uintptr_t)lobe_cl_load();

@@ -29,7 +29,15 @@ typedef struct {
 
 extern cl_faults_state cl_faults;
 
-/* 0 when there is no OpenCL device to fail. */
+/* 0 when there is no OpenCL device to fail. Called again, it changes nothing. */
 int cl_faults_install(void);
+
+/* The first line of a test of OpenCL: without a device the test is reported as skipped. A macro, for Unity to name the
+ * test's own line. */
+#define NEEDS_OPENCL()                                                                                                 \
+	do {                                                                                                           \
+		if (!cl_faults_install())                                                                              \
+			TEST_IGNORE_MESSAGE("no OpenCL device");                                                       \
+	} while (0)
 
 #endif

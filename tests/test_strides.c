@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cl_faults.h"
 #include "lobe/lobe.h"
 #include "support.h"
 #include "unity.h"
@@ -221,8 +222,8 @@ static void test_arrays_of_structs(void)
 static void test_arrays_of_structs_opencl(void)
 {
 	lobe_device *d;
-	if (lobe_device_open(&d, "opencl") != LOBE_OK)
-		TEST_IGNORE_MESSAGE(lobe_error_message());
+	NEEDS_OPENCL();
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_device_open(&d, "opencl"), lobe_error_message());
 	shade_structs_on(d);
 	lobe_device_close(d);
 }
@@ -265,10 +266,15 @@ static void test_long_arrays_of_structs(void)
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, "native:3"));
 	shade_parts(d);
 	lobe_device_close(d);
-	if (lobe_device_open(&d, "opencl") == LOBE_OK) {
-		shade_parts(d);
-		lobe_device_close(d);
-	}
+}
+
+static void test_long_arrays_of_structs_opencl(void)
+{
+	lobe_device *d;
+	NEEDS_OPENCL();
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_device_open(&d, "opencl"), lobe_error_message());
+	shade_parts(d);
+	lobe_device_close(d);
 }
 
 static void test_bad_strides(void)
@@ -341,6 +347,7 @@ int main(void)
 	RUN_TEST(test_arrays_of_structs);
 	RUN_TEST(test_arrays_of_structs_opencl);
 	RUN_TEST(test_long_arrays_of_structs);
+	RUN_TEST(test_long_arrays_of_structs_opencl);
 	RUN_TEST(test_bad_strides);
 	RUN_TEST(test_overlap_of_strided);
 	return UNITY_END();
