@@ -50,6 +50,32 @@ check() {
 	fi
 }
 
+# begins_with FILE HEX
+begins_with() {
+	[ "$(head -c $((${#2} / 2)) "$1" | od -An -v -tx1 | tr -d ' \n')" = "$2" ] || {
+		echo "$1 is not there or begins otherwise"
+		return 1
+	}
+}
+
+# refused CODE WORDS COMMAND...: exits with the code and says a line with the words on stderr. Its output goes to $out,
+# a folder of the script's.
+refused() {
+	code=$1 words=$2
+	shift 2
+	"$@" >$out/refused.out 2>$out/refused.err
+	status=$?
+	cat $out/refused.err
+	[ $status = "$code" ] || {
+		echo "exit status $status, not $code"
+		return 1
+	}
+	grep -qF -e "$words" $out/refused.err || {
+		echo "nothing on stderr names $words"
+		return 1
+	}
+}
+
 finish() {
 	echo "-----------------------"
 	echo "$tests Tests $failures Failures $ignored Ignored"
