@@ -17,9 +17,9 @@ typedef struct {
 
 	cl_bitfield claims; /* devices claim these of CL_DEVICE_SINGLE_FP_CONFIG too */
 	int discrete;       /* devices have memory of their own, as a GPU does */
-	cl_ulong room;   /* when not 0: bytes of the largest buffer */
-	cl_ulong memory; /* when not 0: bytes of device memory */
-	cl_ulong free;   /* when not 0: bytes of it that others leave; buffers beyond them cannot be made */
+	cl_ulong room;      /* when not 0: bytes of the largest buffer */
+	cl_ulong memory;    /* when not 0: bytes of device memory */
+	cl_ulong free;      /* when not 0: bytes of it that others leave; buffers beyond them cannot be made */
 
 	const char *counting; /* a call whose calls are counted, or "" */
 	long counted;

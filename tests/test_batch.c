@@ -4,76 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch_fixture.h"
 #include "lobe/lobe.h"
 #include "support.h"
 #include "unity.h"
 
-enum { N = 1000 };
-
-static lobe_device *device;
-static lobe_scene *scene;
-static float in[9][N], out[13][N];
-static uint32_t material[N], event[N];
-
-void setUp(void)
-{
-	const lobe_bsdf materials[3] = {
-		lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.2f, 0.5f, 0.8f))),
-		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD),
-								     lobe_metal_k(LOBE_METAL_GOLD))),
-		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.1f, 1.5f))};
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, "native:1"));
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&scene, device, materials, 3));
-	for (uint32_t i = 0; i < N; i++) {
-		float w[3];
-		test_direction(1, i, w);
-		for (int k = 0; k < 3; k++)
-			in[k][i] = w[k];
-		test_direction(2, i, w);
-		for (int k = 0; k < 3; k++) {
-			in[3 + k][i] = w[k];
-			in[6 + k][i] = test_uniform((uint32_t)(3 + k), i);
-		}
-		material[i] = test_bits(6, i) % 3;
-	}
-	memset(out, 0xee, sizeof out);
-}
-
-void tearDown(void)
-{
-	lobe_scene_destroy(scene);
-	lobe_device_close(device);
-	scene = NULL;
-	device = NULL;
-}
-
-/* A whole batch; tests spoil one thing each. */
-static lobe_batch good_batch(void)
-{
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = N;
-	b.material = material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = in[k];
-		b.wi[k] = in[3 + k];
-		b.u[k] = in[6 + k];
-		b.f[k] = out[k];
-		b.sample_wi[k] = out[4 + k];
-		b.weight[k] = out[7 + k];
-	}
-	b.pdf = out[3];
-	b.sample_pdf = out[10];
-	b.event = event;
-	return b;
-}
-
-/* The call failed with status, and the message has the word in it. */
-static void assert_refused(lobe_status expected, lobe_status got, const char *word)
-{
-	TEST_ASSERT_EQUAL_STRING(lobe_status_string(expected), lobe_status_string(got));
-	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), word), lobe_error_message());
-}
+void setUp(void) { fixture_open(); }
+void tearDown(void) { fixture_close(); }
 
 /* --- devices ----------------------------------------------------------------------------------------------------- */
 
@@ -95,11 +32,11 @@ static void test_device_refusals(void)
 	static const char *const bad[] = {
 		"",        "gpu",       "native:", "native:0",  "native:1025", "native:x",
 		"native2", "native:-1", "opencl:", "opencl:1x", "openclx",     "native:99999999999999999999"};
-	lobe_device *d = device;
+	lobe_device *d = fixture.device;
 	size_t count = 77;
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
 		assert_refused(LOBE_ERROR_DEVICE, lobe_device_open(&d, bad[i]), "lobe_device_open");
-		TEST_ASSERT_EQUAL_PTR(device, d);
+		TEST_ASSERT_EQUAL_PTR(fixture.device, d);
 	}
 	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_open(NULL, "native"), "out");
 	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_open(&d, NULL), "name");
@@ -134,26 +71,26 @@ static void test_status_strings(void)
 
 static void test_scene_refusals(void)
 {
-	lobe_scene *s = scene;
+	lobe_scene *s = fixture.scene;
 	lobe_bsdf m[2] = {lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0, 0, 0))),
 			  lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0, 0, 0)))};
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(NULL, device, m, 1), "out");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(NULL, fixture.device, m, 1), "out");
 	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, NULL, m, 1), "device");
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, device, NULL, 1), "materials");
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, device, m, 0), "count");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, fixture.device, NULL, 1), "materials");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_create(&s, fixture.device, m, 0), "count");
 	m[1].kind = 200;
-	assert_refused(LOBE_ERROR_PARAMETER, lobe_scene_create(&s, device, m, 2), "materials[1].kind");
-	TEST_ASSERT_EQUAL_PTR(scene, s);
+	assert_refused(LOBE_ERROR_PARAMETER, lobe_scene_create(&s, fixture.device, m, 2), "materials[1].kind");
+	TEST_ASSERT_EQUAL_PTR(fixture.scene, s);
 }
 
 /* Each refusal names the material and the field. */
 static void refuse(lobe_bsdf m, const char *field)
 {
 	const lobe_bsdf materials[2] = {lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(1, 1, 1))), m};
-	lobe_scene *s = scene;
-	assert_refused(LOBE_ERROR_PARAMETER, lobe_scene_create(&s, device, materials, 2), field);
+	lobe_scene *s = fixture.scene;
+	assert_refused(LOBE_ERROR_PARAMETER, lobe_scene_create(&s, fixture.device, materials, 2), field);
 	TEST_ASSERT_NOT_NULL(strstr(lobe_error_message(), "materials[1]"));
-	TEST_ASSERT_EQUAL_PTR(scene, s);
+	TEST_ASSERT_EQUAL_PTR(fixture.scene, s);
 }
 
 static void test_bad_parameters(void)
@@ -200,7 +137,7 @@ static void test_clamped_alpha(void)
 	for (size_t i = 0; i < sizeof alpha / sizeof *alpha; i++) {
 		const lobe_bsdf m = lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(alpha[i], 0.5f, 1.5f));
 		lobe_scene *s;
-		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, &m, 1));
+		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, fixture.device, &m, 1));
 		lobe_scene_destroy(s);
 		TEST_ASSERT_TRUE(m.as.ggx_dielectric.stretch.alpha_x >= LOBE_ALPHA_MIN &&
 				 m.as.ggx_dielectric.stretch.alpha_x <= 1);
@@ -214,28 +151,29 @@ static void test_materials_are_copied(void)
 	lobe_bsdf m = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(1, 1, 1)));
 	lobe_scene *s;
 	lobe_batch b = good_batch();
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, &m, 1));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, fixture.device, &m, 1));
 	memset(&m, 0xff, sizeof m);
 	b.material = NULL;
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
-	const lobe_vec3 wo = lobe_vec3_make(in[0][0], in[1][0], in[2][0]),
-			wi = lobe_vec3_make(in[3][0], in[4][0], in[5][0]);
-	TEST_ASSERT_EQUAL_FLOAT(lobe_lambert_eval(lobe_lambert_make(lobe_rgb_make(1, 1, 1)), wo, wi).r, out[0][0]);
+	const lobe_vec3 wo = lobe_vec3_make(fixture.in[0][0], fixture.in[1][0], fixture.in[2][0]),
+			wi = lobe_vec3_make(fixture.in[3][0], fixture.in[4][0], fixture.in[5][0]);
+	TEST_ASSERT_EQUAL_FLOAT(lobe_lambert_eval(lobe_lambert_make(lobe_rgb_make(1, 1, 1)), wo, wi).r,
+				fixture.out[0][0]);
 	lobe_scene_destroy(s);
 }
 
 /* --- batches ----------------------------------------------------------------------------------------------------- */
 
-static lobe_status eval(const lobe_batch *b) { return lobe_scene_eval(scene, b); }
-static lobe_status sample(const lobe_batch *b) { return lobe_scene_sample(scene, b); }
+static lobe_status eval(const lobe_batch *b) { return lobe_scene_eval(fixture.scene, b); }
+static lobe_status sample(const lobe_batch *b) { return lobe_scene_sample(fixture.scene, b); }
 
 static void test_null_arguments(void)
 {
 	lobe_batch b = good_batch();
 	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval(NULL, &b), "scene");
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval(scene, NULL), "batch");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval(fixture.scene, NULL), "batch");
 	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample(NULL, &b), "scene");
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample(scene, NULL), "batch");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample(fixture.scene, NULL), "batch");
 	b.wo[1] = NULL;
 	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "wo[1]");
 	b = good_batch();
@@ -257,8 +195,8 @@ static void test_null_arguments(void)
 	b.f[0] = b.f[1] = b.f[2] = b.pdf = NULL;
 	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "every output");
 	/* Refused calls wrote nothing. */
-	for (int i = 0; i < N; i++)
-		TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(out[0][i]));
+	for (int i = 0; i < FIXTURE_N; i++)
+		TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(fixture.out[0][i]));
 }
 
 static void test_zero_count(void)
@@ -267,7 +205,7 @@ static void test_zero_count(void)
 	b.count = 0;
 	TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
 	TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
-	TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(out[0][0]));
+	TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(fixture.out[0][0]));
 }
 
 static void test_absurd_count(void)
@@ -280,20 +218,20 @@ static void test_absurd_count(void)
 static void test_material_out_of_range(void)
 {
 	lobe_batch b = good_batch();
-	material[N - 1] = 3;
+	fixture.material[FIXTURE_N - 1] = 3;
 	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "material[999] = 3");
-	TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(out[0][0]));
+	TEST_ASSERT_EQUAL_HEX32(0xeeeeeeeeu, test_float_bits(fixture.out[0][0]));
 }
 
 static void test_misaligned(void)
 {
 	lobe_batch b = good_batch();
 	b.count = 10;
-	b.wo[2] = (const float *)(const void *)((const char *)in[2] + 1);
+	b.wo[2] = (const float *)(const void *)((const char *)fixture.in[2] + 1);
 	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "wo[2]");
 	b = good_batch();
 	b.count = 10;
-	b.event = (uint32_t *)(void *)((char *)event + 2);
+	b.event = (uint32_t *)(void *)((char *)fixture.event + 2);
 	assert_refused(LOBE_ERROR_ARGUMENT, sample(&b), "event");
 }
 
@@ -301,12 +239,12 @@ static void test_overlap(void)
 {
 	lobe_batch b = good_batch();
 	b.count = 100;
-	b.f[2] = out[1] + 99;
+	b.f[2] = fixture.out[1] + 99;
 	assert_refused(LOBE_ERROR_ARGUMENT, eval(&b), "overlaps");
-	b.f[2] = out[1] + 100; /* behind one another is fine */
+	b.f[2] = fixture.out[1] + 100; /* behind one another is fine */
 	TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
 	b = good_batch();
-	b.sample_wi[0] = in[0]; /* in place is not */
+	b.sample_wi[0] = fixture.in[0]; /* in place is not */
 	assert_refused(LOBE_ERROR_ARGUMENT, sample(&b), "overlaps");
 	b = good_batch();
 	for (int k = 0; k < 3; k++)
@@ -323,35 +261,35 @@ static void test_results_and_subsets(void)
 			  lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.1f, 1.5f))};
 	for (int mask = 1; mask < 16; mask++) {
 		lobe_batch b = good_batch();
-		memset(out, 0xee, sizeof out);
-		memset(event, 0xee, sizeof event);
+		memset(fixture.out, 0xee, sizeof fixture.out);
+		memset(fixture.event, 0xee, sizeof fixture.event);
 		for (int k = 0; k < 3; k++) {
-			b.f[k] = mask & 1 ? out[k] : NULL;
-			b.sample_wi[k] = mask & 1 ? out[4 + k] : NULL;
-			b.weight[k] = mask & 2 ? out[7 + k] : NULL;
+			b.f[k] = mask & 1 ? fixture.out[k] : NULL;
+			b.sample_wi[k] = mask & 1 ? fixture.out[4 + k] : NULL;
+			b.weight[k] = mask & 2 ? fixture.out[7 + k] : NULL;
 		}
-		b.pdf = mask & 2 ? out[3] : NULL;
-		b.sample_pdf = mask & 4 ? out[10] : NULL;
-		b.event = mask & 8 ? event : NULL;
+		b.pdf = mask & 2 ? fixture.out[3] : NULL;
+		b.sample_pdf = mask & 4 ? fixture.out[10] : NULL;
+		b.event = mask & 8 ? fixture.event : NULL;
 		if (mask & 3)
 			TEST_ASSERT_EQUAL(LOBE_OK, eval(&b));
 		TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
-		for (int i = 0; i < N; i++) {
-			const lobe_vec3 wo = lobe_vec3_make(in[0][i], in[1][i], in[2][i]);
-			const lobe_vec3 wi = lobe_vec3_make(in[3][i], in[4][i], in[5][i]);
-			const lobe_vec3 u = lobe_vec3_make(in[6][i], in[7][i], in[8][i]);
-			const lobe_rgb f = lobe_bsdf_eval(m[material[i]], wo, wi);
-			const lobe_sample s = lobe_bsdf_sample(m[material[i]], wo, u);
+		for (int i = 0; i < FIXTURE_N; i++) {
+			const lobe_vec3 wo = lobe_vec3_make(fixture.in[0][i], fixture.in[1][i], fixture.in[2][i]);
+			const lobe_vec3 wi = lobe_vec3_make(fixture.in[3][i], fixture.in[4][i], fixture.in[5][i]);
+			const lobe_vec3 u = lobe_vec3_make(fixture.in[6][i], fixture.in[7][i], fixture.in[8][i]);
+			const lobe_rgb f = lobe_bsdf_eval(m[fixture.material[i]], wo, wi);
+			const lobe_sample s = lobe_bsdf_sample(m[fixture.material[i]], wo, u);
 			const float expected[11] = {
-				f.r,        f.g,        f.b,    lobe_bsdf_pdf(m[material[i]], wo, wi),
+				f.r,        f.g,        f.b,    lobe_bsdf_pdf(m[fixture.material[i]], wo, wi),
 				s.wi.x,     s.wi.y,     s.wi.z, s.weight.r,
 				s.weight.g, s.weight.b, s.pdf};
 			const int wanted[11] = {mask & 1, mask & 1, mask & 1, mask & 2, mask & 1, mask & 1,
 						mask & 1, mask & 2, mask & 2, mask & 2, mask & 4};
 			for (int k = 0; k < 11; k++)
 				TEST_ASSERT_EQUAL_HEX32(wanted[k] ? test_float_bits(expected[k]) : 0xeeeeeeeeu,
-							test_float_bits(out[k][i]));
-			TEST_ASSERT_EQUAL_HEX32(mask & 8 ? s.event : 0xeeeeeeeeu, event[i]);
+							test_float_bits(fixture.out[k][i]));
+			TEST_ASSERT_EQUAL_HEX32(mask & 8 ? s.event : 0xeeeeeeeeu, fixture.event[i]);
 		}
 	}
 }
@@ -384,24 +322,25 @@ static void test_many_materials(void)
 		unsetenv("LOBE_ISA");
 		if (status != LOBE_OK)
 			continue; /* no such instructions here */
-		for (uint32_t i = 0; i < N; i++)
-			material[i] = test_bits(50, i & 512 ? i : i / 64) % count;
+		for (uint32_t i = 0; i < FIXTURE_N; i++)
+			fixture.material[i] = test_bits(50, i & 512 ? i : i / 64) % count;
 		lobe_batch b = good_batch();
 		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_create(&s, d, m, count), lobe_error_message());
 		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
 		TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(s, &b));
-		for (int i = 0; i < N; i++) {
-			const lobe_vec3 wo = lobe_vec3_make(in[0][i], in[1][i], in[2][i]);
-			const lobe_vec3 wi = lobe_vec3_make(in[3][i], in[4][i], in[5][i]);
+		for (int i = 0; i < FIXTURE_N; i++) {
+			const lobe_vec3 wo = lobe_vec3_make(fixture.in[0][i], fixture.in[1][i], fixture.in[2][i]);
+			const lobe_vec3 wi = lobe_vec3_make(fixture.in[3][i], fixture.in[4][i], fixture.in[5][i]);
 			const lobe_sample r =
-				lobe_bsdf_sample(m[material[i]], wo, lobe_vec3_make(in[6][i], in[7][i], in[8][i]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(lobe_bsdf_eval(m[material[i]], wo, wi).g),
-						test_float_bits(out[1][i]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(lobe_bsdf_pdf(m[material[i]], wo, wi)),
-						test_float_bits(out[3][i]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(r.wi.x), test_float_bits(out[4][i]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(r.weight.b), test_float_bits(out[9][i]));
-			TEST_ASSERT_EQUAL_HEX32(r.event, event[i]);
+				lobe_bsdf_sample(m[fixture.material[i]], wo,
+						 lobe_vec3_make(fixture.in[6][i], fixture.in[7][i], fixture.in[8][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(lobe_bsdf_eval(m[fixture.material[i]], wo, wi).g),
+						test_float_bits(fixture.out[1][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(lobe_bsdf_pdf(m[fixture.material[i]], wo, wi)),
+						test_float_bits(fixture.out[3][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(r.wi.x), test_float_bits(fixture.out[4][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(r.weight.b), test_float_bits(fixture.out[9][i]));
+			TEST_ASSERT_EQUAL_HEX32(r.event, fixture.event[i]);
 		}
 		lobe_scene_destroy(s);
 		lobe_device_close(d);
@@ -415,55 +354,56 @@ static void test_no_lobe(void)
 	lobe_scene *s;
 	memset(m, 0, sizeof m);
 	m[1] = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(1, 1, 1)));
-	for (int i = 0; i < N; i++)
-		material[i] = (uint32_t)i & 1;
+	for (int i = 0; i < FIXTURE_N; i++)
+		fixture.material[i] = (uint32_t)i & 1;
 	lobe_batch b = good_batch();
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, device, m, 2));
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&s, fixture.device, m, 2));
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(s, &b));
-	for (int i = 0; i < N; i += 2) {
-		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(out[0][i]));
-		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(out[10][i]));
-		TEST_ASSERT_EQUAL_HEX32(0, event[i]);
-		TEST_ASSERT_NOT_EQUAL(0, event[i + 1]);
+	for (int i = 0; i < FIXTURE_N; i += 2) {
+		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(fixture.out[0][i]));
+		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(fixture.out[10][i]));
+		TEST_ASSERT_EQUAL_HEX32(0, fixture.event[i]);
+		TEST_ASSERT_NOT_EQUAL(0, fixture.event[i + 1]);
 	}
 	b.material = NULL;
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(s, &b));
-	for (int i = 0; i < N; i++)
-		TEST_ASSERT_EQUAL_HEX32(0, event[i]);
+	for (int i = 0; i < FIXTURE_N; i++)
+		TEST_ASSERT_EQUAL_HEX32(0, fixture.event[i]);
 	lobe_scene_destroy(s);
 }
 
 /* Random numbers at and beyond their ends, and directions that are no directions, stay in their own element. */
 static void test_elements_are_independent(void)
 {
-	static float first[13][N];
+	static float first[13][FIXTURE_N];
 	lobe_batch b = good_batch();
 	TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
-	memcpy(first, out, sizeof first);
-	in[0][500] = in[1][500] = in[2][500] = NAN;
-	in[6][501] = in[7][501] = in[8][501] = 0x1.fffffep-1f;
+	memcpy(first, fixture.out, sizeof first);
+	fixture.in[0][500] = fixture.in[1][500] = fixture.in[2][500] = NAN;
+	fixture.in[6][501] = fixture.in[7][501] = fixture.in[8][501] = 0x1.fffffep-1f;
 	TEST_ASSERT_EQUAL(LOBE_OK, sample(&b));
 	for (int k = 4; k < 11; k++)
-		for (int i = 0; i < N; i++)
+		for (int i = 0; i < FIXTURE_N; i++)
 			if (i < 500 || i > 501)
-				TEST_ASSERT_EQUAL_HEX32(test_float_bits(first[k][i]), test_float_bits(out[k][i]));
+				TEST_ASSERT_EQUAL_HEX32(test_float_bits(first[k][i]),
+							test_float_bits(fixture.out[k][i]));
 	for (int k = 4; k < 11; k++)
-		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(out[k][500]));
+		TEST_ASSERT_EQUAL_HEX32(0, test_float_bits(fixture.out[k][500]));
 }
 
 /* One device used from four threads at once: calls take turns, and each thread has its own error message. */
 enum { THREADS = 4 };
-static float thread_pdf[THREADS][N];
+static float thread_pdf[THREADS][FIXTURE_N];
 
 static void *use_device(void *argument)
 {
-	const size_t me = (size_t)((float(*)[N])argument - thread_pdf);
+	const size_t me = (size_t)((float(*)[FIXTURE_N])argument - thread_pdf);
 	lobe_batch b = good_batch();
 	b.f[0] = b.f[1] = b.f[2] = NULL;
 	b.pdf = thread_pdf[me];
 	for (int round = 0; round < 50; round++) {
-		if (lobe_scene_eval(scene, &b) != LOBE_OK || lobe_error_message()[0])
+		if (lobe_scene_eval(fixture.scene, &b) != LOBE_OK || lobe_error_message()[0])
 			return argument;
 		lobe_device *none;
 		if (round == 49 && lobe_device_open(&none, "nothing") == LOBE_OK)
@@ -483,7 +423,7 @@ static void test_threads(void)
 	for (int i = 0; i < THREADS; i++) {
 		TEST_ASSERT_EQUAL(0, pthread_join(threads[i], &failed));
 		TEST_ASSERT_NULL(failed);
-		TEST_ASSERT_EQUAL_MEMORY(out[3], thread_pdf[i], sizeof out[3]);
+		TEST_ASSERT_EQUAL_MEMORY(fixture.out[3], thread_pdf[i], sizeof fixture.out[3]);
 	}
 }
 
@@ -494,17 +434,17 @@ static void test_native_takes_no_buffers(void)
 	lobe_cl_batch b;
 	memset(&b, 0, sizeof b);
 	b.count = 1;
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval_cl(scene, &b), "cl_mem");
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample_cl(scene, &b), "cl_mem");
-	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_cl(device, NULL, NULL, NULL), "lobe_device_cl");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval_cl(fixture.scene, &b), "cl_mem");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_sample_cl(fixture.scene, &b), "cl_mem");
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_device_cl(fixture.device, NULL, NULL, NULL), "lobe_device_cl");
 }
 
 static void test_source_and_options(void)
 {
 	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_source(), "lobe_ggx_conductor_eval"));
 	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(NULL), "-cl-fp32-correctly-rounded-divide-sqrt"));
-	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(scene), "-DLOBE_HAS_GGX_DIELECTRIC=1"));
-	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(scene), "-DLOBE_HAS_DEFAULT=0"));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(fixture.scene), "-DLOBE_HAS_GGX_DIELECTRIC=1"));
+	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(fixture.scene), "-DLOBE_HAS_DEFAULT=0"));
 }
 
 int main(void)

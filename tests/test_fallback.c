@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch_fixture.h"
 #include "cl_faults.h"
 #include "inputs.h"
 #include "internal.h"
@@ -48,12 +49,7 @@ static void prepare(void)
 {
 	in = inputs_alloc(N);
 	inputs_random(in, 4000000);
-	materials[0] = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.5f, 0.5f, 0.5f)));
-	materials[1] = lobe_bsdf_from_ggx_conductor(
-		lobe_ggx_conductor_make(0.2f, 0.3f, lobe_metal_eta(LOBE_METAL_IRON), lobe_metal_k(LOBE_METAL_IRON)));
-	materials[2].kind = LOBE_KIND_NONE;
-	for (uint32_t i = 0; i < N; i++)
-		material[i] = i % 3;
+	fixture_materials(materials, material, N);
 	const lobe_batch b = inputs_batch(in, material, expected[0]);
 	lobe_device *device;
 	lobe_scene *scene;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch_fixture.h"
 #include "cases.h"
 #include "inputs.h"
 #include "lobe/lobe.h"
@@ -29,12 +30,6 @@ void setUp(void)
 		TEST_IGNORE_MESSAGE("no OpenCL device");
 }
 void tearDown(void) {}
-
-static void assert_refused(lobe_status status, lobe_status got_status, const char *word)
-{
-	TEST_ASSERT_EQUAL_STRING(lobe_status_string(status), lobe_status_string(got_status));
-	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), word), lobe_error_message());
-}
 
 /* Inputs, materials of every lobe, and what the native device makes of them. */
 static void prepare(void)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch_fixture.h"
 #include "cl_faults.h"
 #include "inputs.h"
 #include "internal.h"
@@ -46,7 +47,7 @@ static const struct {
 static int cached; /* programs come from the cache, and without it from source */
 static int reached_times[sizeof calls / sizeof *calls];
 
-/* --- one life of a device: open, scene, batch ------------------------------------------------------------------------- */
+/* --- one life of a device: open, scene, batch --------------------------------------------------------------------- */
 
 static inputs in;
 static uint32_t material[N];
@@ -63,8 +64,9 @@ static lobe_status eval_on_buffers(lobe_device *device, lobe_scene *scene)
 	if (status != LOBE_OK)
 		return status;
 	for (int k = 0; k < 7; k++)
-		buffer[k] = cl_faults.real.clCreateBuffer(context, CL_MEM_READ_WRITE | (k < 6 ? CL_MEM_COPY_HOST_PTR : 0), N * 4,
-						k < 6 ? in.array[k] : NULL, NULL);
+		buffer[k] =
+			cl_faults.real.clCreateBuffer(context, CL_MEM_READ_WRITE | (k < 6 ? CL_MEM_COPY_HOST_PTR : 0),
+						      N * 4, k < 6 ? in.array[k] : NULL, NULL);
 	memset(&b, 0, sizeof b);
 	b.count = N;
 	for (int k = 0; k < 3; k++) {
@@ -109,19 +111,17 @@ static void install(void)
 {
 	in = inputs_alloc(N);
 	inputs_random(in, 8000000);
-	materials[0] = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.5f, 0.5f, 0.5f)));
-	materials[1] = lobe_bsdf_from_ggx_conductor(
-		lobe_ggx_conductor_make(0.2f, 0.3f, lobe_metal_eta(LOBE_METAL_IRON), lobe_metal_k(LOBE_METAL_IRON)));
-	materials[2].kind = LOBE_KIND_NONE;
-	for (uint32_t i = 0; i < N; i++)
-		material[i] = i % 3;
+	fixture_materials(materials, material, N);
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_on("native:1"), lobe_error_message());
 	memcpy(expected, out, sizeof expected);
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, live_once(), lobe_error_message());
 	TEST_ASSERT_EQUAL_MEMORY(expected, out, sizeof expected);
 }
 
-static void test_nothing_leaks(void) { TEST_ASSERT_EQUAL_MESSAGE(0, cl_faults.live, "objects created and not released"); }
+static void test_nothing_leaks(void)
+{
+	TEST_ASSERT_EQUAL_MESSAGE(0, cl_faults.live, "objects created and not released");
+}
 
 static void fail_each(cl_int code, int check_memory)
 {
@@ -193,7 +193,7 @@ static void test_cache(void)
 	TEST_ASSERT_EQUAL(0, system(path));
 }
 
-/* --- large batches on devices with memory of their own ------------------------------------------------------------- */
+/* --- large batches on devices with memory of their own ------------------------------------------------------------ */
 
 enum { LARGE = 200000 };
 static const size_t large_size = INPUTS_OUTPUTS * LARGE * sizeof(float);

@@ -4,80 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch_fixture.h"
 #include "cl_faults.h"
 #include "lobe/lobe.h"
 #include "support.h"
 #include "unity.h"
 
-enum { N = 1000 };
+void setUp(void) { fixture_open(); }
+void tearDown(void) { fixture_close(); }
 
-static lobe_device *device;
-static lobe_scene *scene;
-static float in[9][N], out[13][N];
-static uint32_t material[N], event[N];
-
-void setUp(void)
-{
-	const lobe_bsdf materials[3] = {
-		lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.2f, 0.5f, 0.8f))),
-		lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD),
-								     lobe_metal_k(LOBE_METAL_GOLD))),
-		lobe_bsdf_from_ggx_dielectric(lobe_ggx_dielectric_make(0.3f, 0.1f, 1.5f))};
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&device, "native:1"));
-	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_create(&scene, device, materials, 3));
-	for (uint32_t i = 0; i < N; i++) {
-		float w[3];
-		test_direction(1, i, w);
-		for (int k = 0; k < 3; k++)
-			in[k][i] = w[k];
-		test_direction(2, i, w);
-		for (int k = 0; k < 3; k++) {
-			in[3 + k][i] = w[k];
-			in[6 + k][i] = test_uniform((uint32_t)(3 + k), i);
-		}
-		material[i] = test_bits(6, i) % 3;
-	}
-	memset(out, 0xee, sizeof out);
-}
-
-void tearDown(void)
-{
-	lobe_scene_destroy(scene);
-	lobe_device_close(device);
-	scene = NULL;
-	device = NULL;
-}
-
-/* A whole batch; tests spoil one thing each. */
-static lobe_batch good_batch(void)
-{
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = N;
-	b.material = material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = in[k];
-		b.wi[k] = in[3 + k];
-		b.u[k] = in[6 + k];
-		b.f[k] = out[k];
-		b.sample_wi[k] = out[4 + k];
-		b.weight[k] = out[7 + k];
-	}
-	b.pdf = out[3];
-	b.sample_pdf = out[10];
-	b.event = event;
-	return b;
-}
-
-/* The call failed with status, and the message has the word in it. */
-static void assert_refused(lobe_status expected, lobe_status got, const char *word)
-{
-	TEST_ASSERT_EQUAL_STRING(lobe_status_string(expected), lobe_status_string(got));
-	TEST_ASSERT_NOT_NULL_MESSAGE(strstr(lobe_error_message(), word), lobe_error_message());
-}
-
-static lobe_status eval(const lobe_batch *b) { return lobe_scene_eval(scene, b); }
-static lobe_status sample(const lobe_batch *b) { return lobe_scene_sample(scene, b); }
+static lobe_status eval(const lobe_batch *b) { return lobe_scene_eval(fixture.scene, b); }
+static lobe_status sample(const lobe_batch *b) { return lobe_scene_sample(fixture.scene, b); }
 
 /* All arrays of good_batch as members of one struct, among others that are nobody's business. */
 typedef struct {
@@ -91,23 +28,23 @@ typedef struct {
 	uint32_t event, guard2;
 } hit;
 
-static hit hits[N];
+static hit hits[FIXTURE_N];
 
 static lobe_batch struct_batch(void)
 {
 	lobe_batch b;
-	for (size_t i = 0; i < N; i++) {
+	for (size_t i = 0; i < FIXTURE_N; i++) {
 		hit *const h = &hits[i];
 		memset(h, 0xcc, sizeof *h);
-		h->material = material[i];
+		h->material = fixture.material[i];
 		for (int k = 0; k < 3; k++) {
-			h->wo[k] = in[k][i];
-			h->wi[k] = in[3 + k][i];
-			h->u[k] = in[6 + k][i];
+			h->wo[k] = fixture.in[k][i];
+			h->wi[k] = fixture.in[3 + k][i];
+			h->u[k] = fixture.in[6 + k][i];
 		}
 	}
 	memset(&b, 0, sizeof b);
-	b.count = N;
+	b.count = FIXTURE_N;
 	b.material = &hits->material;
 	for (int k = 0; k < 3; k++) {
 		b.wo[k] = &hits->wo[k];
@@ -129,21 +66,22 @@ static lobe_batch struct_batch(void)
 static void check_structs(lobe_scene *s, int mixed)
 {
 	lobe_batch b = good_batch();
-	b.material = mixed ? material : NULL;
+	b.material = mixed ? fixture.material : NULL;
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(s, &b), lobe_error_message());
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_sample(s, &b), lobe_error_message());
-	for (size_t i = 0; i < N; i++) {
+	for (size_t i = 0; i < FIXTURE_N; i++) {
 		const hit *const h = &hits[i];
 		for (int k = 0; k < 3; k++) {
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[k][i]), test_float_bits(h->f[k]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[4 + k][i]), test_float_bits(h->sample_wi[k]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[7 + k][i]), test_float_bits(h->weight[k]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(in[k][i]), test_float_bits(h->wo[k]));
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(in[6 + k][i]), test_float_bits(h->u[k]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[k][i]), test_float_bits(h->f[k]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[4 + k][i]),
+						test_float_bits(h->sample_wi[k]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[7 + k][i]), test_float_bits(h->weight[k]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.in[k][i]), test_float_bits(h->wo[k]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.in[6 + k][i]), test_float_bits(h->u[k]));
 		}
-		TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[3][i]), test_float_bits(h->pdf));
-		TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[10][i]), test_float_bits(h->sample_pdf));
-		TEST_ASSERT_EQUAL_HEX32(event[i], h->event);
+		TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[3][i]), test_float_bits(h->pdf));
+		TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[10][i]), test_float_bits(h->sample_pdf));
+		TEST_ASSERT_EQUAL_HEX32(fixture.event[i], h->event);
 		TEST_ASSERT_EQUAL_HEX32(0xcccccccc, h->guard0);
 		TEST_ASSERT_EQUAL_HEX32(0xcccccccc, h->guard1);
 		TEST_ASSERT_EQUAL_HEX32(0xcccccccc, h->guard2);
@@ -162,13 +100,13 @@ static void shade_structs(lobe_scene *s, int mixed)
 /* Outputs that are not wanted are not written; packed arrays beside strided ones. */
 static void shade_some_of_structs(lobe_scene *s)
 {
-	static float weight[3][N];
+	static float weight[3][FIXTURE_N];
 	lobe_batch b = struct_batch();
 	for (int k = 0; k < 3; k++) {
 		b.f[k] = NULL;
 		b.sample_wi[k] = NULL;
 		b.weight[k] = weight[k];
-		b.u[k] = in[6 + k];
+		b.u[k] = fixture.in[6 + k];
 	}
 	b.stride.weight = b.stride.u = 0;
 	b.event = NULL;
@@ -178,12 +116,12 @@ static void shade_some_of_structs(lobe_scene *s)
 	b = good_batch();
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_eval(s, &b));
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_scene_sample(s, &b));
-	for (size_t i = 0; i < N; i++) {
-		TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[3][i]), test_float_bits(hits[i].pdf));
-		TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[10][i]), test_float_bits(hits[i].sample_pdf));
+	for (size_t i = 0; i < FIXTURE_N; i++) {
+		TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[3][i]), test_float_bits(hits[i].pdf));
+		TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[10][i]), test_float_bits(hits[i].sample_pdf));
 		TEST_ASSERT_EQUAL_HEX32(0xcccccccc, hits[i].event);
 		for (int k = 0; k < 3; k++) {
-			TEST_ASSERT_EQUAL_HEX32(test_float_bits(out[7 + k][i]), test_float_bits(weight[k][i]));
+			TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[7 + k][i]), test_float_bits(weight[k][i]));
 			TEST_ASSERT_EQUAL_HEX32(0xcccccccc, test_float_bits(hits[i].f[k]));
 			TEST_ASSERT_EQUAL_HEX32(0xcccccccc, test_float_bits(hits[i].sample_wi[k]));
 		}
@@ -262,7 +200,7 @@ static void shade_parts(lobe_device *d)
 static void test_long_arrays_of_structs(void)
 {
 	lobe_device *d;
-	shade_parts(device);
+	shade_parts(fixture.device);
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, "native:3"));
 	shade_parts(d);
 	lobe_device_close(d);
