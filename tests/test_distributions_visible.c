@@ -1,13 +1,13 @@
 /* test_distributions_visible.c - visible and plain normals of every distribution that is chosen at run time
  * (microfacet/distribution.h): their cumulative distributions against quadrature, chi-square of a million samples,
  * order, extremes, and what a wrong table does to all that. */
+#include "chi_square.h"
 #include "distribution_cases.h"
 #include "measured.h"
 #include "support.h"
 
 #include "unity.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -307,23 +307,9 @@ static double p_value(const distribution_case *c, lobe_distribution d, lobe_vec3
 		const lobe_vec3 m = plain ? lobe_distribution_plain(d, u2) : lobe_distribution_visible(d, v, u2);
 		observed[bin_of(edge, m, azimuth)]++;
 	}
-	double sum = 0.0, few = 0.0, few_seen = 0.0;
-	int used = 0;
-	for (int i = 0; i < BINS; i++) {
-		const double e = SAMPLES * expected[i] / all, off = (double)observed[i] - e;
-		if (e < 5.0) {
-			few += e;
-			few_seen += (double)observed[i];
-			continue;
-		}
-		sum += off * off / e;
-		used++;
-	}
-	if (few >= 5.0 || few_seen > 30.0) {
-		sum += (few_seen - few) * (few_seen - few) / fmax(few, 1.0);
-		used++;
-	}
-	return gsl_cdf_chisq_Q(sum, (double)(used - 1));
+	for (int i = 0; i < BINS; i++)
+		expected[i] /= all;
+	return chi_square_of(expected, observed, BINS).p;
 }
 
 static void test_chi_square(void)

@@ -1,11 +1,11 @@
 /* test_ggx.c - microfacet/ggx.h: the distribution, its projected area and masking, and visible-normal sampling. */
 #include "stretched_ggx.h"
 
+#include "chi_square.h"
 #include "measured.h"
 #include "support.h"
 #include "unity.h"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
 #include <math.h>
 #include <stdio.h>
@@ -433,44 +433,19 @@ static lobe_vec3 sample_wrong_width(lobe_stretch d, lobe_vec3 w, float t, lobe_v
 	return stretched_ggx_visible(wide, w, stretched_ggx_t(wide, w), u);
 }
 
-/* The probability that chance alone gives this much disagreement between counts and expectations. Cells that expect
- * fewer than 5 are taken together, as the chi-square law asks. */
-static double chi_square_p(const double *expected, const uint32_t *count, size_t cells)
-{
-	double sum = 0.0, few_expected = 0.0, few_count = 0.0;
-	unsigned used = 0;
-	for (size_t i = 0; i < cells; i++) {
-		if (expected[i] < 5.0) {
-			few_expected += expected[i];
-			few_count += (double)count[i];
-			continue;
-		}
-		const double d = (double)count[i] - expected[i];
-		sum += d * d / expected[i];
-		used++;
-	}
-	if (few_expected >= 5.0) {
-		sum += (few_count - few_expected) * (few_count - few_expected) / few_expected;
-		used++;
-	} else if (few_count > few_expected + 30.0) {
-		return 0.0; /* samples where hardly any belong */
-	}
-	return gsl_cdf_chisq_Q(sum, (double)(used - 1));
-}
-
 /* Chi-square of the normals in the space of h, where cells of equal size suit every width, with D and w.m of the header
  * and the normalisation sigma = (z + t)/2. */
 static double visible_p_value(sampler sample, lobe_stretch d, lobe_vec3 w, uint32_t stream)
 {
 	static uint32_t count[Z_BINS * PHI_BINS];
-	static double expected[Z_BINS * PHI_BINS];
+	static double probability[Z_BINS * PHI_BINS];
 	const integrand f = {d, w, weight_visible};
 	const float t = stretched_ggx_t(d, w);
 	const double sigma = 0.5 * ((double)w.z + (double)t), two_pi = 2.0 * (double)PI;
 	for (int i = 0; i < Z_BINS * PHI_BINS; i++) {
 		const double z = (double)(i / PHI_BINS) / Z_BINS, phi = two_pi * (i % PHI_BINS) / PHI_BINS;
 		count[i] = 0;
-		expected[i] = SAMPLES * integrate(&f, z, z + 1.0 / Z_BINS, phi, phi + two_pi / PHI_BINS, 16) / sigma;
+		probability[i] = integrate(&f, z, z + 1.0 / Z_BINS, phi, phi + two_pi / PHI_BINS, 16) / sigma;
 	}
 	for (uint64_t i = 0; i < SAMPLES; i++) {
 		float u[3];
@@ -484,7 +459,7 @@ static double visible_p_value(sampler sample, lobe_stretch d, lobe_vec3 w, uint3
 		phi = phi >= PHI_BINS ? PHI_BINS - 1 : phi;
 		count[row * PHI_BINS + phi]++;
 	}
-	return chi_square_p(expected, count, Z_BINS * PHI_BINS);
+	return chi_square_of(probability, count, Z_BINS * PHI_BINS).p;
 }
 
 static void test_visible_chi_square(void)

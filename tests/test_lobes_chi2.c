@@ -6,6 +6,7 @@
  * delta events, whose probability comes from the textbook's Fresnel and facet distribution, and one of rejected
  * samples. */
 #include "cases.h"
+#include "chi_square.h"
 #include "double.h"
 #include "lobe/lobe.h"
 #include "quadrature.h"
@@ -14,7 +15,6 @@
 
 #include "unity.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,8 +45,6 @@ typedef struct {
 typedef struct {
 	double expected[BINS], quadrature_error;
 	uint32_t observed[BINS];
-	double chi2;
-	int dof;
 } histogram;
 
 static double pdf_at(const scene *s, const double wi[3], double x)
@@ -240,34 +238,10 @@ static void observe(const scene *s, uint32_t stream, histogram *h)
 	}
 }
 
-/* Upper tail of Pearson's statistic. Bins that expect fewer than 5 samples are pooled into one. The probabilities add
- * up to 1 by construction, so that a density that does not shows in the bin of rejected samples. */
-static double chi_square(histogram *h)
+/* What is rejected is expected by difference: a density that does not integrate to 1 less that shows there. */
+static chi_square fit_of(const histogram *h)
 {
-	double pool_expected = 0.0, pool_observed = 0.0;
-	h->chi2 = 0.0;
-	h->dof = -1;
-	for (int i = 0; i < BINS; i++) {
-		const double e = h->expected[i] * SAMPLES, o = h->observed[i];
-		if (e < 5.0) {
-			pool_expected += e > 0.0 ? e : 0.0;
-			pool_observed += o;
-		} else {
-			/* What is rejected is expected by difference, so the quadrature's whole error lands here. */
-			const double slack = i == REJECT ? h->quadrature_error * SAMPLES : 0.0;
-			const double off = fmax(fabs(o - e) - slack, 0.0);
-			h->chi2 += off * off / e;
-			h->dof++;
-		}
-	}
-	/* What is expected (almost) never must be seen (almost) never: the pool counts as 1 expected sample at least,
-	 * which is more than the quadrature's error. */
-	const double e = fmax(pool_expected, 1.0);
-	if (pool_expected >= 1.0 || pool_observed > 10.0) {
-		h->chi2 += (pool_observed - e) * (pool_observed - e) / e;
-		h->dof++;
-	}
-	return h->dof < 1 ? (pool_observed > 10.0 ? 0.0 : 1.0) : gsl_cdf_chisq_Q(h->chi2, h->dof);
+	return chi_square_with_rest(h->expected, h->observed, BINS, REJECT, h->quadrature_error * SAMPLES);
 }
 
 /* cos and azimuth of wo; those below the surface are for lobes with two sides. */
@@ -321,8 +295,9 @@ static void measure_all(void)
 				r->name = c->name;
 				r->in_double = in_double;
 				r->cos_o = views[k][0];
-				r->p = chi_square(h);
-				r->dof = h->dof;
+				const chi_square fit = fit_of(h);
+				r->p = fit.p;
+				r->dof = fit.dof;
 				r->integral = 1.0 - h->expected[REJECT];
 				r->rejected = h->observed[REJECT] / (double)SAMPLES;
 				r->sigma = sqrt(r->rejected * (1.0 - r->rejected) / SAMPLES);
@@ -331,7 +306,7 @@ static void measure_all(void)
 					printf("  %-26s %s cos %5.2f  integral %.5f  rejected %.5f  chi2 %8.1f  dof "
 					       "%3d  p %.2e  qerr %.1e\n",
 					       r->name, in_double ? "double" : "float ", r->cos_o, r->integral,
-					       r->rejected, h->chi2, r->dof, r->p, r->quadrature_error);
+					       r->rejected, fit.chi2, r->dof, r->p, r->quadrature_error);
 			}
 	free(h);
 }
@@ -415,7 +390,7 @@ static void test_a_wrong_pdf_is_caught(void)
 			}
 			expect(&s, h);
 			observe(&s, 77u, h);
-			p[wrong] = chi_square(h);
+			p[wrong] = fit_of(h).p;
 		}
 		printf("  %-20s p: true pdf %.2e, 2 %% in a region %.2e, alpha off by 3 %% %.2e\n", c->name, p[RIGHT],
 		       p[WRONG_SCALE], p[WRONG_ALPHA]);

@@ -6,13 +6,13 @@
  * v.n) is seen from v. */
 #include "lobe/microfacet/smith.h"
 
+#include "chi_square.h"
 #include "leadr.h"
 #include "measured.h"
 #include "quadrature.h"
 #include "support.h"
 #include "unity.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,8 +58,6 @@ typedef struct {
 	double k[3], v[3], sigma;
 	double expected[SIDE * SIDE], quadrature_error;
 	uint32_t observed[SIDE * SIDE];
-	double chi2;
-	int dof;
 } histogram;
 
 static double facing(const double v[3], double x, double y)
@@ -130,30 +128,6 @@ static double observe(histogram *h, const leadr *whiten, uint32_t stream)
 	return worst;
 }
 
-/* Upper tail of Pearson's statistic; bins that expect fewer than 5 are pooled. */
-static double chi_square(histogram *h)
-{
-	double pool_expected = 0.0, pool_observed = 0.0;
-	h->chi2 = 0.0;
-	h->dof = -1;
-	for (int i = 0; i < SIDE * SIDE; i++) {
-		const double e = h->expected[i] * SAMPLES, o = h->observed[i];
-		if (e < 5.0) {
-			pool_expected += e;
-			pool_observed += o;
-		} else {
-			h->chi2 += (o - e) * (o - e) / e;
-			h->dof++;
-		}
-	}
-	const double e = fmax(pool_expected, 1.0);
-	if (pool_expected >= 1.0 || pool_observed > 10.0) {
-		h->chi2 += (pool_observed - e) * (pool_observed - e) / e;
-		h->dof++;
-	}
-	return gsl_cdf_chisq_Q(h->chi2, h->dof);
-}
-
 static histogram scene_of(size_t i, leadr_kind kind)
 {
 	histogram h;
@@ -171,6 +145,8 @@ static histogram scene_of(size_t i, leadr_kind kind)
 	return h;
 }
 
+static double p_value(const histogram *h) { return chi_square_of(h->expected, h->observed, SIDE * SIDE).p; }
+
 static double sidak(void) { return -expm1(log1p(-LEVEL) / (2.0 * SCENES)); }
 
 static void test_samples_follow_the_density(void)
@@ -184,15 +160,15 @@ static void test_samples_follow_the_density(void)
 			expect(&h);
 			const double error =
 				observe(&h, &h.s, 20u + (uint32_t)(kind * 100) + (uint32_t)i) / leadr_condition(&h.s);
-			const double p = chi_square(&h);
+			const chi_square fit = chi_square_of(h.expected, h.observed, SIDE * SIDE);
 			for (int b = 0; b < SIDE * SIDE; b++)
 				sum += h.expected[b];
 			printf("  %s %zu: mean plane %s  v.z %6.3f  sigma %.4f  integral %.6f  chi2 %6.1f  dof %3d  p "
 			       "%.3f\n",
 			       kind ? "beckmann" : "ggx", i, h.v[2] < 0.0 ? "away  " : "facing", h.v[2], h.sigma, sum,
-			       h.chi2, h.dof, p);
+			       fit.chi2, fit.dof, fit.p);
 			away += h.v[2] < 0.0 && h.k[2] > 0.0;
-			bad += p < sidak() || fabs(sum - 1.0) > 1e-5 + h.quadrature_error;
+			bad += fit.p < sidak() || fabs(sum - 1.0) > 1e-5 + h.quadrature_error;
 			worst = larger(worst, error);
 		}
 	measured("pdf against LEADR, relative error times w.m over condition(A)", worst, 2e-6);
@@ -208,21 +184,21 @@ static void test_a_wrong_density_is_caught(void)
 	const leadr right = h.s;
 	expect(&h);
 	observe(&h, &right, 999);
-	const double p = chi_square(&h);
+	const double p = p_value(&h);
 	h.s.rho += 0.02;
 	expect(&h); /* bins stay those of the right surface; the view is what goes wrong */
-	const double p_rho = chi_square(&h);
+	const double p_rho = p_value(&h);
 	h.s = right;
 	h.s.tx *= 0.98;
 	expect(&h);
-	const double p_tilt = chi_square(&h);
+	const double p_tilt = p_value(&h);
 	h.s = right;
 	expect(&h);
 	/* As G1/|cos| would have it: sigma + |v.z| in place of sigma, for facets that face away. */
 	double sum = 0.0;
 	for (int b = 0; b < SIDE * SIDE; b++)
 		sum += h.expected[b] *= h.sigma / (h.sigma - h.v[2]);
-	const double p_g1 = chi_square(&h);
+	const double p_g1 = p_value(&h);
 	printf("  p: right %.3f, rho off by .02 %.1e, tilt by 2 %% %.1e, normalised by G1/|cos| %.1e (integral %.3f)\n",
 	       p, p_rho, p_tilt, p_g1, sum);
 	TEST_ASSERT_TRUE(p > sidak());

@@ -1,5 +1,6 @@
 /* test_strategies.c - every sampling strategy: its density integrates to 1 less what it rejects, samples follow it, the
  * mean of weights is the albedo whichever strategy made them, and variances are those that are known. */
+#include "chi_square.h"
 #include "measured.h"
 #include "microsurface_cases.h"
 #include "support.h"
@@ -7,7 +8,6 @@
 
 #include "unity.h"
 
-#include <gsl/gsl_cdf.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -103,26 +103,7 @@ static fit test_fit_to(const view *v, uint32_t stream, uint32_t samples, int dep
 		const lobe_sample s = lobe_microfacet_conductor_sample(v->p, v->wo, lobe_vec3_make(u[0], u[1], u[2]));
 		observed[s.event ? bin_of(v, s.wi) : REJECTED]++;
 	}
-	double chi2 = 0.0, pool_e = 0.0, pool_o = 0.0;
-	int dof = -1;
-	for (int i = 0; i < BINS; i++) {
-		const double e = expected[i] * samples, o = observed[i];
-		if (e < 10.0) {
-			pool_e += fmax(e, 0.0);
-			pool_o += o;
-			continue;
-		}
-		const double off = fmax(fabs(o - e) - (i == REJECTED ? q.error * samples : 0.0), 0.0);
-		chi2 += off * off / e;
-		dof++;
-	}
-	if (pool_e > 1.0 || pool_o > 20.0) {
-		pool_e = fmax(pool_e, 1.0);
-		const double off = fmax(fabs(pool_o - pool_e) - q.error * samples, 0.0);
-		chi2 += off * off / pool_e;
-		dof++;
-	}
-	f.p = gsl_cdf_chisq_Q(chi2, dof < 1 ? 1 : dof);
+	f.p = chi_square_with_rest(expected, observed, BINS, REJECTED, q.error * samples).p;
 	f.rejected = observed[REJECTED] / (double)samples;
 	f.error = q.error;
 	return f;

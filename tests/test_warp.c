@@ -1,11 +1,11 @@
 /* test_warp.c - core/warp.h: domains, densities by chi-square and quadrature, inverses. */
 #include "lobe/core/warp.h"
 
+#include "chi_square.h"
 #include "measured.h"
 #include "support.h"
 #include "unity.h"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
 #include <math.h>
 #include <stdio.h>
@@ -199,27 +199,16 @@ static void test_density_outside(void)
 #define Z_BINS   24
 #define PHI_BINS 32
 
-/* The probability that chance alone gives this much disagreement between counts and expectations. Cells that expect
- * fewer than 5 are taken together, as the chi-square law asks; what falls outside of all cells is one more. */
-static double chi_square_p(const double *expected, const uint32_t *count, size_t cells, double total)
+/* The cells, and one more for what the density has outside of all of them: no sample is there. */
+#define CELLS (Z_BINS * PHI_BINS)
+#define BINS  (CELLS + 1)
+
+static double p_value(double *probability, const uint32_t *count)
 {
-	double sum = 0.0, few_expected = total, few_count = total;
-	unsigned used = 0;
-	for (size_t i = 0; i < cells; i++) {
-		if (expected[i] < 5.0)
-			continue;
-		const double d = (double)count[i] - expected[i];
-		sum += d * d / expected[i];
-		few_expected -= expected[i];
-		few_count -= (double)count[i];
-		used++;
-	}
-	/* Quadrature leaves a rounding error where nothing is expected; 1e-6 of the samples is below what it can tell.
-	 */
-	const double floor_expected = larger(few_expected, 1e-6 * total);
-	const double d = few_count - few_expected;
-	sum += d * d / larger(floor_expected, 1.0);
-	return gsl_cdf_chisq_Q(sum, (double)used);
+	probability[CELLS] = 1.0;
+	for (int i = 0; i < CELLS; i++)
+		probability[CELLS] -= probability[i];
+	return chi_square_of(probability, count, BINS).p;
 }
 
 typedef double (*density)(const warp *m, lobe_vec3 w);
@@ -256,13 +245,13 @@ static double integrate(density f, const warp *m, double z0, double z1, double p
 
 static double warp_p_value(const warp *m, density f, uint32_t stream)
 {
-	static uint32_t count[Z_BINS * PHI_BINS];
-	static double expected[Z_BINS * PHI_BINS];
+	static uint32_t count[BINS];
+	static double probability[BINS];
 	const double range = 1.0 - m->top;
-	for (int i = 0; i < Z_BINS * PHI_BINS; i++) {
+	for (int i = 0; i < CELLS; i++) {
 		const double z = m->top + range * (i / PHI_BINS) / Z_BINS, phi = 2.0 * PI * (i % PHI_BINS) / PHI_BINS;
 		count[i] = 0;
-		expected[i] = SAMPLES * integrate(f, m, z, z + range / Z_BINS, phi, phi + 2.0 * PI / PHI_BINS, 4);
+		probability[i] = integrate(f, m, z, z + range / Z_BINS, phi, phi + 2.0 * PI / PHI_BINS, 4);
 	}
 	for (uint64_t i = 0; i < SAMPLES; i++) {
 		float u[3];
@@ -276,7 +265,7 @@ static double warp_p_value(const warp *m, density f, uint32_t stream)
 		phi = phi >= PHI_BINS ? PHI_BINS - 1 : phi;
 		count[z * PHI_BINS + phi]++;
 	}
-	return chi_square_p(expected, count, Z_BINS * PHI_BINS, SAMPLES);
+	return p_value(probability, count);
 }
 
 static void test_chi_square(void)
@@ -299,14 +288,14 @@ static void test_chi_square(void)
  * its square root would be caught at once, so the wrong density is one that is only 5 % off at the rim. */
 static void test_disk_chi_square(void)
 {
-	static uint32_t count[Z_BINS * PHI_BINS];
-	static double expected[Z_BINS * PHI_BINS], planted[Z_BINS * PHI_BINS];
-	for (int i = 0; i < Z_BINS * PHI_BINS; i++) {
+	static uint32_t count[BINS];
+	static double probability[BINS], planted[BINS];
+	for (int i = 0; i < CELLS; i++) {
 		const double r0 = (double)(i / PHI_BINS) / Z_BINS, r1 = r0 + 1.0 / Z_BINS;
 		const double area = PI * (r1 * r1 - r0 * r0) / PHI_BINS;
 		count[i] = 0;
-		expected[i] = SAMPLES * (double)lobe_concentric_disk_pdf() * area;
-		planted[i] = expected[i] * (1.0 + 0.1 * (0.5 * (r0 * r0 + r1 * r1) - 0.5));
+		probability[i] = (double)lobe_concentric_disk_pdf() * area;
+		planted[i] = probability[i] * (1.0 + 0.1 * (0.5 * (r0 * r0 + r1 * r1) - 0.5));
 	}
 	for (uint64_t i = 0; i < SAMPLES; i++) {
 		float u[3];
@@ -319,8 +308,8 @@ static void test_disk_chi_square(void)
 		phi = phi >= PHI_BINS ? PHI_BINS - 1 : phi;
 		count[r * PHI_BINS + phi]++;
 	}
-	const double p = chi_square_p(expected, count, Z_BINS * PHI_BINS, SAMPLES);
-	const double wrong = chi_square_p(planted, count, Z_BINS * PHI_BINS, SAMPLES);
+	const double p = p_value(probability, count);
+	const double wrong = p_value(planted, count);
 	printf("  %-40s p = %8.3g   with a density 5 %% off: p = %8.3g   level %.3g\n", "disk", p, wrong, 0.01);
 	TEST_ASSERT_TRUE_MESSAGE(p > 0.01, "disk: the density disagrees with the samples");
 	TEST_ASSERT_TRUE_MESSAGE(wrong < 0.01, "disk: the planted density was not caught");
