@@ -1,6 +1,7 @@
 #include "cases.h"
 
 #include "cases_make.h"
+#include "support.h"
 
 #define THIRD        (1.0 / 3.0)
 #define RADIANCE     LOBE_TRANSPORT_RADIANCE
@@ -185,7 +186,8 @@ static const recipe microfacet_conductor_recipes[] = {
 	{"schlick bounded .5:.2",
 	 {0.5, 0.2, GREY(0.3, 1), GGX, MASKING(SMITH, HEIGHT_DIRECTION, SEPARABLE), BY(BOUNDED_CAP, SCHLICK)}},
 	{"film on silver cavities .6",
-	 {0.6, 0.6, METAL(SILVER), 0, 0, 0, 0, 0, GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE), BY(VCAVITY, FILM), 300, 1.5}},
+	 {0.6, 0.6, METAL(SILVER), 0, 0, 0, 0, 0, GGX, MASKING(VCAVITY, HEIGHT, SEPARABLE), BY(VCAVITY, FILM), 300,
+	  1.5}},
 	{"phong 30 hemisphere",
 	 {1, 0.6, METAL(NICKEL), 0, 0, 0, 0, 0, SURFACE(LOBE_NDF_PHONG, 30, 1, 0, 0, 0, 0),
 	  MASKING(SMITH, HEIGHT, SEPARABLE), BY(HEMISPHERE, EXACT)}},
@@ -193,8 +195,8 @@ static const recipe microfacet_conductor_recipes[] = {
 	 {1, 0.7, 0.9, 0.7, 0.4, 0.1, 0.2, 0.3, SURFACE(LOBE_NDF_GTR, 1.5, 0.3, 0, 0, 0, 0),
 	  MASKING(SMITH, HEIGHT, SEPARABLE), BY(VISIBLE, F82)}},
 	{"beckmann rational .4:.2",
-	 {0.4, 0.2, GREY(0.8, 0), SURFACE(LOBE_NDF_BECKMANN, 0, 1, 0, 0, 0, 0), MASKING(SMITH_RATIONAL, HEIGHT, SEPARABLE),
-	  BY(VISIBLE, CONSTANT)}},
+	 {0.4, 0.2, GREY(0.8, 0), SURFACE(LOBE_NDF_BECKMANN, 0, 1, 0, 0, 0, 0),
+	  MASKING(SMITH_RATIONAL, HEIGHT, SEPARABLE), BY(VISIBLE, CONSTANT)}},
 	{"power 3.2 neumann cosine .5",
 	 {0.5, 0.5, 0.6, 0.3, 0.1, 1, 0.9, 0.8, GGX, MASKING(NEUMANN, HEIGHT, SEPARABLE), BY(COSINE, POWER), 3.2, 0}},
 };
@@ -417,5 +419,5 @@ double case_film_condition(const test_case *c)
 	/* 1/2.24e-3 nm is the shortest wavelength that counts; a film of many wavelengths has lost its colour. */
 	const double *film = c->parameter + (chosen ? 20 : 2);
 	const double opd = fmin(2.0 * film[0] * film[1], 1e4);
-	return 1.0 + 2.0 * 6.2831853 * opd * 2.24e-3;
+	return 1.0 + 2.0 * TWO_PI * opd * 2.24e-3;
 }

@@ -1,16 +1,16 @@
 #include "distribution_cases.h"
 
+#include "support.h"
+
 #include <gsl/gsl_integration.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 /* D = (n + 2)/(2 pi) cos^n; P22 = D cos^4. */
 static double phong(const distribution_case *c, double r)
 {
-	return (c->a + 2.0) / (2.0 * PI) * exp(-0.5 * (c->a + 4.0) * log1p(r * r));
+	return (c->a + 2.0) / TWO_PI * exp(-0.5 * (c->a + 4.0) * log1p(r * r));
 }
 
 /* Burley 2012: D = (g - 1)(A - 1)/(pi (1 - A^(1 - g)))/(1 + (A - 1) cos^2)^g, its limits at g = 1 and A = 1 apart.
@@ -34,7 +34,7 @@ static double two_gaussians(const distribution_case *c, double r)
 }
 
 /* exp(-r/a)/(2 pi a^2) */
-static double exponential(const distribution_case *c, double r) { return exp(-r / c->a) / (2.0 * PI * c->a * c->a); }
+static double exponential(const distribution_case *c, double r) { return exp(-r / c->a) / (TWO_PI * c->a * c->a); }
 
 /* A ring: r^2 exp(-r^2/a^2)... to a high power: (r/a)^(2b) exp(-b r^2/a^2), int = pi a^2 b! b^-(b + 1) */
 static double ring(const distribution_case *c, double r)
@@ -153,7 +153,7 @@ static double ring_integrand_at(double y, void *context)
 	const ring_integrand *f = context;
 	const double e = exp(y), r = f->r0 + e;
 	const double p22 = f->c->p22(f->c, r);
-	return p22 > 0.0 ? e * 2.0 * PI * r * p22 * f->weight(f->context, r) : 0.0;
+	return p22 > 0.0 ? e * TWO_PI * r * p22 * f->weight(f->context, r) : 0.0;
 }
 
 double ring_integral(const distribution_case *c, double r0, double r1, double (*weight)(void *context, double r),
@@ -196,7 +196,7 @@ double reference_tail(const distribution_case *c, double r) { return ring_integr
 double reference_kernel(double s, double z, double r)
 {
 	if (z >= s * r)
-		return 2.0 * PI * z;
+		return TWO_PI * z;
 	if (z <= -s * r)
 		return 0.0;
 	const double p = 2.0 * asin(sqrt(0.5 * (s * r + z) / (s * r))), p2 = p * p;
@@ -211,7 +211,7 @@ typedef struct {
 static double hidden_weight(void *context, double r)
 {
 	const view *v = context;
-	return reference_kernel(v->s, -v->z, r) / (2.0 * PI);
+	return reference_kernel(v->s, -v->z, r) / TWO_PI;
 }
 
 double reference_hidden(const distribution_case *c, double s, double z)

@@ -62,7 +62,7 @@ void inputs_random(inputs in, size_t first)
 		test_direction(12, n, wi);
 		if (how % 4 == 0) /* grazing */
 			from_angles((how & 16 ? 1.0 : -1.0) * pow(10.0, -7.0 * (double)test_uniform(18, n)),
-				    6.283185307179586 * (double)test_uniform(19, n), wo);
+				    TWO_PI * (double)test_uniform(19, n), wo);
 		if (how / 4 % 4 < 2)
 			near_specular(n, wo, wi);
 		for (int k = 0; k < 3; k++) {

@@ -1,8 +1,8 @@
 #include "leadr.h"
 
-#include <math.h>
+#include "support.h"
 
-#define PI 3.14159265358979323846
+#include <math.h>
 
 double leadr_tail(leadr_kind kind, double t2) { return kind == LEADR_GGX ? 1.0 / (1.0 + t2) : exp(-t2); }
 

@@ -2,6 +2,8 @@
 #ifndef LOBE_TESTS_MEASURED_H
 #define LOBE_TESTS_MEASURED_H
 
+#include <math.h>
+
 /* Prints value beside bound, and remembers the first that is outside. */
 void measured(const char *what, double value, double bound);
 
@@ -10,5 +12,8 @@ void measured_reset(void);
 const char *measured_outside(void);
 
 static inline double larger(double a, double b) { return a > b ? a : b; }
+
+/* A NaN is larger than everything. */
+static inline double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
 
 #endif

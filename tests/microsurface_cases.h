@@ -3,6 +3,7 @@
 #ifndef LOBE_TESTS_MICROSURFACE_CASES_H
 #define LOBE_TESTS_MICROSURFACE_CASES_H
 
+#include "directions.h"
 #include "distribution_tables.h"
 #include "lobe/shading.h"
 #include "quadrature.h"
@@ -39,12 +40,6 @@ static inline lobe_distribution shape_make(const shape_case *c)
 	return d;
 }
 
-static inline lobe_vec3 direction_at(double z, double phi)
-{
-	const double s = sqrt((1.0 - z) * (1.0 + z));
-	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
-}
-
 /* (x, y) of the unit square as the facet of the mapped surface whose slopes are those of the GGX surface of the same
  * width: mean + A like r (cos, sin)(2 pi y), r = sqrt(1/x^6 - 1), which is smooth where a tail is long. Unit; returns
  * its solid angle per area of the square. */
@@ -52,7 +47,7 @@ static inline double surface_facet(const lobe_microsurface *s, double x_in, doub
 {
 	const double root = fmax(x_in, 1e-4), x = root * root * root, like = (double)s->like;
 	const double r = like * sqrt((1.0 - x) * (1.0 + x)) / x;
-	const double u = r * cos(6.283185307179586 * y), v = r * sin(6.283185307179586 * y);
+	const double u = r * cos(TWO_PI * y), v = r * sin(TWO_PI * y);
 	const double sx = (double)s->map.xx * u + (double)s->map.xy * v - (double)s->map.mean_x;
 	const double sy = (double)s->map.yx * u + (double)s->map.yy * v - (double)s->map.mean_y;
 	const double z = 1.0 / sqrt(1.0 + sx * sx + sy * sy);
@@ -60,7 +55,7 @@ static inline double surface_facet(const lobe_microsurface *s, double x_in, doub
 	m[0] = sx * z;
 	m[1] = sy * z;
 	m[2] = z;
-	return 3.0 * root * root * 6.283185307179586 * like * like * det * z * z * z / (x * x * x);
+	return 3.0 * root * root * TWO_PI * like * like * det * z * z * z / (x * x * x);
 }
 
 /* D(m) [1/sr] */

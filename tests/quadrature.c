@@ -1,10 +1,9 @@
 #include "quadrature.h"
 
+#include "support.h"
 #include "textbook.h"
 
 #include <math.h>
-
-#define PI 3.14159265358979323846
 
 static double gauss(const quadrature *q, double x0, double x1, double y0, double y1)
 {
@@ -80,13 +79,13 @@ double map_facet(const direction_map *m, double x_in, double y, double facet[3])
 {
 	const double x = fmax(x_in, 1e-12);
 	const double r = sqrt((1.0 - x) * (1.0 + x)) / x;
-	facet[0] = m->ax * r * cos(2.0 * PI * y);
-	facet[1] = m->ay * r * sin(2.0 * PI * y);
+	facet[0] = m->ax * r * cos(TWO_PI * y);
+	facet[1] = m->ay * r * sin(TWO_PI * y);
 	facet[2] = 1.0;
 	textbook_normalize(facet);
 	/* dm = m.z^3 d(slopes), and the area of slopes is ax ay pi d(r^2) dy with r^2 = 1/x^2 - 1. */
 	const double z_over_x = facet[2] / x;
-	return 2.0 * PI * m->ax * m->ay * z_over_x * z_over_x * z_over_x;
+	return TWO_PI * m->ax * m->ay * z_over_x * z_over_x * z_over_x;
 }
 
 /* Both of the functions below in one. */
@@ -95,8 +94,8 @@ static double map_point(const direction_map *m, double x, double y, double wi[3]
 	double facet[3];
 	if (m->kind == MAP_SPHERE) {
 		const double z = 2.0 * x - 1.0, s = sqrt((1.0 - z) * (1.0 + z));
-		wi[0] = s * cos(2.0 * PI * y);
-		wi[1] = s * sin(2.0 * PI * y);
+		wi[0] = s * cos(TWO_PI * y);
+		wi[1] = s * sin(TWO_PI * y);
 		wi[2] = z;
 		*edge = 1.0;
 		return 4.0 * PI;
@@ -152,7 +151,7 @@ void map_coordinates(const direction_map *m, const double wi[3], double *x, doub
 	double h[3];
 	if (m->kind == MAP_SPHERE) {
 		*x = 0.5 + 0.5 * wi[2];
-		*y = atan2(wi[1], wi[0]) / (2.0 * PI);
+		*y = atan2(wi[1], wi[0]) / TWO_PI;
 	} else {
 		const double e = m->kind == MAP_REFLECT ? 1.0 : m->e;
 		for (int k = 0; k < 3; k++)
@@ -160,7 +159,7 @@ void map_coordinates(const direction_map *m, const double wi[3], double *x, doub
 		/* Slopes; the sign of h falls out. */
 		const double sx = h[0] / (m->ax * h[2]), sy = h[1] / (m->ay * h[2]);
 		*x = 1.0 / sqrt(1.0 + sx * sx + sy * sy);
-		*y = atan2(sy, sx) / (2.0 * PI);
+		*y = atan2(sy, sx) / TWO_PI;
 	}
 	if (*y < 0.0)
 		*y += 1.0;

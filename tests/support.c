@@ -26,7 +26,7 @@ void test_u3(uint32_t stream, uint64_t i, float u[3])
 void test_direction(uint32_t stream, uint64_t i, float w[3])
 {
 	const double z = 2.0 * ((double)test_bits(stream, 2 * i) + 0.5) * 0x1p-32 - 1.0;
-	const double phi = 6.283185307179586 * (double)test_bits(stream, 2 * i + 1) * 0x1p-32;
+	const double phi = TWO_PI * (double)test_bits(stream, 2 * i + 1) * 0x1p-32;
 	const double r = sqrt((1.0 - z) * (1.0 + z));
 	w[0] = (float)(r * cos(phi));
 	w[1] = (float)(r * sin(phi));

@@ -1,9 +1,12 @@
-/* support.h - what tests share: reproducible random numbers, distances in ulp, bits. */
+/* support.h - what tests share: reproducible random numbers, distances in ulp, bits, pi. */
 #ifndef LOBE_TESTS_SUPPORT_H
 #define LOBE_TESTS_SUPPORT_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#define PI     3.14159265358979323846
+#define TWO_PI 6.28318530717958647693
 
 /* Number i of stream, uniform in [0, 2^32): Philox4x32-10 (Random123), a function of its arguments alone. */
 uint32_t test_bits(uint32_t stream, uint64_t i);

@@ -2,6 +2,7 @@
  * sampling, against the definitions in double. Widths are the business of stretch.h (test_ggx.c) and of the lobes'
  * tests. */
 #include "chi_square.h"
+#include "double_reference.h"
 #include "measured.h"
 #include "support.h"
 #include "unity.h"
@@ -12,40 +13,19 @@
 #include <math.h>
 #include <stdio.h>
 
-#define U  0x1p-24
-#define PI 3.14159265358979323846
+#define U 0x1p-24
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-/* A NaN is larger than everything. */
-static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
-
-/* --- the definitions ------------------------------------------------------------------------------------------------ */
-
-/* exp(x^2) erfc(x) and exp(x^2) ierfc(x), x >= 0: by definition, or by the continued fraction of the tail. */
-static double tail_fraction(double x)
-{
-	double t = 0.0;
-	for (int k = x < 4.0 ? 160 : x < 100.0 ? 30 : 6; k > 0; k--)
-		t = 0.5 * k / (x + t);
-	return t;
-}
-
-static double erfcx(double x) { return x < 2.0 ? exp(x * x) * erfc(x) : 1.0 / sqrt(PI) / (x + tail_fraction(x)); }
-
-static double ierfcx(double x)
-{
-	const double t = x < 2.0 ? 0.0 : tail_fraction(x);
-	return x < 2.0 ? 1.0 / sqrt(PI) - x * erfcx(x) : t / sqrt(PI) / (x + t);
-}
+/* --- the definitions ---------------------------------------------------------------------------------------------- */
 
 static double radius(lobe_vec3 v) { return hypot((double)v.x, (double)v.y); }
 
 static double exact_hidden(lobe_vec3 v)
 {
 	const double r = radius(v), c = fabs((double)v.z) / r;
-	return r > 0.0 && c < 27.0 ? 0.5 * r * exp(-c * c) * ierfcx(c) : 0.0;
+	return r > 0.0 && c < 27.0 ? 0.5 * r * exp(-c * c) * reference_ierfcx(c) : 0.0;
 }
 
 /* The direction of length `length` whose cotangent is c. */
@@ -62,14 +42,14 @@ static double cotangent(uint32_t stream, uint64_t i)
 	return i % 7 == 0 ? 0.0 : i & 1 ? c : -c;
 }
 
-/* --- D, hidden, t ----------------------------------------------------------------------------------------------------- */
+/* --- D, hidden, t ------------------------------------------------------------------------------------------------- */
 
 static void test_density(void)
 {
 	double worst = 0.0;
 	for (uint64_t i = 0; i < 300000; i++) {
 		const double slope = 9.0 * (double)test_uniform(1, 3 * i),
-			     phi = 2.0 * PI * (double)test_uniform(1, 3 * i + 1);
+			     phi = TWO_PI * (double)test_uniform(1, 3 * i + 1);
 		const double z = pow(10.0, 4.0 * (double)test_uniform(1, 3 * i + 2) - 2.0);
 		const lobe_vec3 h =
 			lobe_vec3_make((float)(z * slope * cos(phi)), (float)(z * slope * sin(phi)), (float)z);
@@ -148,7 +128,7 @@ static void test_rational_lambda(void)
 	TEST_ASSERT_TRUE(uncut > 0.05);
 }
 
-/* --- integrals of D --------------------------------------------------------------------------------------------------- */
+/* --- integrals of D ----------------------------------------------------------------------------------------------- */
 
 /* Over slopes (x, y), where D m.z dm = P22 dx dy and P22 is the density at (-x, -y, 1) over pi. The plane of slopes is
  * cut along the line where v.m changes its sign, so that the integrand is smooth. */
@@ -219,7 +199,7 @@ static void test_normalisation_and_projected_area(void)
 	measured("|weak white furnace - 1| in u", furnace / U, 10.0);
 }
 
-/* --- visible normals: the distribution that is inverted ----------------------------------------------------------------- */
+/* --- visible normals: the distribution that is inverted ----------------------------------------------------------- */
 
 /* u number i: all of the 1000 next to either end, then random ones. */
 static float u_at(uint32_t stream, uint32_t i)
@@ -232,12 +212,12 @@ static float u_at(uint32_t stream, uint32_t i)
 /* The complement of X's distribution, at X = x for z >= 0 and at X = c + x below the horizon (c = |z|/r). */
 static double complement_above(double c, double x)
 {
-	return (exp(-x * x) / sqrt(PI) + c * erfc(x)) / (2.0 * c + exp(-c * c) * ierfcx(c));
+	return (exp(-x * x) / sqrt(PI) + c * erfc(x)) / (2.0 * c + exp(-c * c) * reference_ierfcx(c));
 }
 
 static double complement_below(double c, double x)
 {
-	return exp(-x * (x + 2.0 * c)) * (ierfcx(c + x) + x * erfcx(c + x)) / ierfcx(c);
+	return exp(-x * (x + 2.0 * c)) * (reference_ierfcx(c + x) + x * reference_erfcx(c + x)) / reference_ierfcx(c);
 }
 
 /* X by bisection of the same, to the last bit of a double. */
@@ -313,7 +293,7 @@ static void test_monotone(void)
 	measured("largest step of X between u of .01 and .99", largest, 0.02);
 }
 
-/* --- visible normals: samples ------------------------------------------------------------------------------------------- */
+/* --- visible normals: samples ------------------------------------------------------------------------------------- */
 
 #define SAMPLES 500000u
 #define SIDE    20

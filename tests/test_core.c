@@ -8,6 +8,7 @@
 #include "lobe/core/event.h"
 #include "lobe/core/frame.h"
 
+#include "directions.h"
 #include "measured.h"
 #include "support.h"
 #include "unity.h"
@@ -156,17 +157,9 @@ static void test_fma_special(void)
 	TEST_ASSERT_TRUE(lobe_fma(0x1.fffffep+50f, 0x1p+52f, FLT_MAX) == FLT_MAX);
 }
 
-/* --- vectors and selects -------------------------------------------------------------------------------------------
- */
+/* --- vectors and selects ------------------------------------------------------------------------------------------ */
 
 #define VECTOR_CASES 1000000u
-
-static lobe_vec3 direction(uint32_t stream, uint64_t i)
-{
-	float w[3];
-	test_direction(stream, i, w);
-	return lobe_vec3_make(w[0], w[1], w[2]);
-}
 
 /* Products of floats are exact in double, and their sums nearly so in long double. */
 static long double dot_exact(lobe_vec3 a, lobe_vec3 b)
@@ -226,10 +219,10 @@ static void test_cross(void)
 {
 	double worst = 0.0;
 	for (uint64_t i = 0; i < VECTOR_CASES / 4; i++) {
-		const lobe_vec3 a = direction(15, i);
+		const lobe_vec3 a = random_direction(15, i);
 		/* Down to an angle of 1e-6 between the two. */
 		const float near = ldexpf(1.0f, -(int)(i % 21));
-		const lobe_vec3 b = lobe_vec3_fma(near, direction(16, i), a);
+		const lobe_vec3 b = lobe_vec3_fma(near, random_direction(16, i), a);
 		const lobe_vec3 n = lobe_cross(a, b);
 		const double size = length(n);
 		if (size > 0.0)
@@ -246,7 +239,7 @@ static void test_normalize(void)
 	double worst = 0.0, worst_direction = 0.0;
 	for (uint64_t i = 0; i < VECTOR_CASES / 2; i++) {
 		const double size = pow(10.0, 36.0 * (double)test_uniform(17, i) - 18.0);
-		const lobe_vec3 d = direction(18, i);
+		const lobe_vec3 d = random_direction(18, i);
 		const lobe_vec3 v = lobe_vec3_scale(d, (float)size);
 		const lobe_vec3 n = lobe_normalize(v);
 		const double len = length(v);
@@ -315,8 +308,7 @@ static void test_sample_selects(void)
 	TEST_ASSERT_EQUAL_MEMORY(zeros, &none, sizeof none);
 }
 
-/* --- frames ----------------------------------------------------------------------------------------------------------
- */
+/* --- frames ------------------------------------------------------------------------------------------------------- */
 
 #define FRAME_CASES 1000000u
 
@@ -358,7 +350,7 @@ static void test_frame_random(void)
 {
 	frame_error e = {0.0, 0.0, 0.0, 0.0};
 	for (uint64_t i = 0; i < FRAME_CASES; i++)
-		frame_worst(&e, lobe_frame_from_normal(direction(20, i)), direction(21, i));
+		frame_worst(&e, lobe_frame_from_normal(random_direction(20, i)), random_direction(21, i));
 	frame_measured("frame, random normals", e);
 }
 
@@ -367,19 +359,19 @@ static void test_frame_singular(void)
 {
 	frame_error down = {0.0, 0.0, 0.0, 0.0}, level = {0.0, 0.0, 0.0, 0.0};
 	for (uint64_t i = 0; i < FRAME_CASES / 2; i++) {
-		const double phi = 6.283185307179586 * (double)test_uniform(22, i);
+		const double phi = TWO_PI * (double)test_uniform(22, i);
 		const double sine = pow(10.0, -9.0 * (double)test_uniform(23, i));
 		const double cosine = sqrt((1.0 - sine) * (1.0 + sine));
 		const lobe_vec3 n = {(float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)-cosine};
-		frame_worst(&down, lobe_frame_from_normal(n), direction(24, i));
+		frame_worst(&down, lobe_frame_from_normal(n), random_direction(24, i));
 		const lobe_vec3 m = {(float)(cosine * cos(phi)), (float)(cosine * sin(phi)),
 				     (float)(i & 1 ? sine : -sine)};
-		frame_worst(&level, lobe_frame_from_normal(m), direction(24, i));
+		frame_worst(&level, lobe_frame_from_normal(m), random_direction(24, i));
 	}
 	const lobe_vec3 exact[] = {{0.0f, 0.0f, 1.0f},  {0.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f},
 				   {1.0f, 0.0f, -0.0f}, {0.0f, -1.0f, 0.0f}, {0x1p-149f, 0.0f, -1.0f}};
 	for (size_t i = 0; i < sizeof exact / sizeof exact[0]; i++)
-		frame_worst(&down, lobe_frame_from_normal(exact[i]), direction(25, i));
+		frame_worst(&down, lobe_frame_from_normal(exact[i]), random_direction(25, i));
 	frame_measured("frame, n.z near -1", down);
 	frame_measured("frame, n.z near 0", level);
 	/* The frame of the shading frame's own normal is the frame itself. */
@@ -392,13 +384,13 @@ static void test_frame_singular(void)
 static void test_frame_planted(void)
 {
 	frame_error tilted = {0.0, 0.0, 0.0, 0.0}, mirrored = {0.0, 0.0, 0.0, 0.0};
-	lobe_frame f = lobe_frame_from_normal(direction(26, 0));
+	lobe_frame f = lobe_frame_from_normal(random_direction(26, 0));
 	f.t.x += 1e-5f;
-	frame_worst(&tilted, f, direction(26, 1));
+	frame_worst(&tilted, f, random_direction(26, 1));
 	TEST_ASSERT_TRUE(tilted.cosine > 10.0 * U || tilted.length > 10.0 * U);
-	f = lobe_frame_from_normal(direction(26, 0));
+	f = lobe_frame_from_normal(random_direction(26, 0));
 	f.b = lobe_vec3_scale(f.b, -1.0f);
-	frame_worst(&mirrored, f, direction(26, 1));
+	frame_worst(&mirrored, f, random_direction(26, 1));
 	TEST_ASSERT_TRUE(mirrored.length <= 10.0 * U && mirrored.handed > 13.0 * U);
 }
 
@@ -407,17 +399,17 @@ static void test_frame_tangent(void)
 	frame_error e = {0.0, 0.0, 0.0, 0.0};
 	double off_plane = 0.0, least_along = 1.0;
 	for (uint64_t i = 0; i < FRAME_CASES / 2; i++) {
-		const lobe_vec3 n = direction(27, i);
+		const lobe_vec3 n = random_direction(27, i);
 		/* Any length in the domain, down to an angle of 1e-6 to the normal. */
 		const float near = ldexpf(1.0f, -(int)(i % 21));
 		const float size = (float)pow(10.0, 18.0 * (double)test_uniform(28, i) - 9.0);
 		const lobe_vec3 t = lobe_vec3_scale(
-			lobe_vec3_fma(near, direction(29, i), i & 1 ? n : lobe_vec3_make(0, 0, 0)), size);
+			lobe_vec3_fma(near, random_direction(29, i), i & 1 ? n : lobe_vec3_make(0, 0, 0)), size);
 		const double len = length(t);
 		if (len < 1e-9 || len > 1e9 || (double)(dot_exact(n, t) * dot_exact(n, t)) > len * len * (1.0 - 1e-12))
 			continue;
 		const lobe_frame f = lobe_frame_from_normal_tangent(n, t);
-		frame_worst(&e, f, direction(30, i));
+		frame_worst(&e, f, random_direction(30, i));
 		off_plane = larger(off_plane, fabs((double)dot_exact(f.b, t)) / len);
 		const double along = (double)dot_exact(f.t, t) / len;
 		least_along = along < least_along ? along : least_along;

@@ -38,7 +38,7 @@ static int is_mirrored(lobe_vec3 wo, lobe_vec3 wi) { return wi.x == -wo.x && wi.
 
 static int is_straight(lobe_vec3 wo, lobe_vec3 wi) { return wi.x == -wo.x && wi.y == -wo.y && wi.z == -wo.z; }
 
-/* --- mirrors ---------------------------------------------------------------------------------------------------- */
+/* --- mirrors ------------------------------------------------------------------------------------------------------ */
 
 static void test_mirror(void)
 {
@@ -77,7 +77,7 @@ static void test_smooth_conductor(void)
 	measured("smooth_conductor: weight - F", worst, 60.0 * U);
 }
 
-/* --- glass ------------------------------------------------------------------------------------------------------ */
+/* --- glass -------------------------------------------------------------------------------------------------------- */
 
 static float index_of(uint32_t i)
 {
@@ -197,7 +197,7 @@ static void test_back_through_glass(void)
 	measured("glass, there and back: probability", probability, 89.0 * 6.25 * U);
 }
 
-/* --- panes ------------------------------------------------------------------------------------------------------ */
+/* --- panes -------------------------------------------------------------------------------------------------------- */
 
 /* R + T^2 R (1 + R^2 + R^4 + ...), term by term; what is left over at last is in the transmittance. */
 static double pane(double c, double eta, double *through)
@@ -306,7 +306,7 @@ static void test_pane_of_unpolarised_light(void)
 		}
 	}
 	printf("  R' of glass is above that of both polarisations apart by at most %.4f, at %.1f degrees\n", worst,
-	       acos(at) * 180.0 / 3.14159265358979);
+	       acos(at) * 180.0 / PI);
 	measured("pane: R' less that of each polarisation", worst, 0.0223);
 }
 

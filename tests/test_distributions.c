@@ -10,15 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 static const distribution_case *cases;
 static size_t count;
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
-
-static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
 
 static void test_made(void)
 {

@@ -13,16 +13,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 static const distribution_case *cases;
 static size_t count;
 static float table[LOBE_PROFILE_WORDS];
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
-
-static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
 
 static void test_made(void)
 {
@@ -61,7 +57,7 @@ static double pi_d(lobe_distribution d, lobe_vec3 h)
 	return (double)f.inv * (double)f.inv * (double)f.factor;
 }
 
-/* --- powers.h -------------------------------------------------------------------------------------------------------- */
+/* --- powers.h ----------------------------------------------------------------------------------------------------- */
 
 static void test_powers(void)
 {
@@ -116,7 +112,7 @@ static void test_decay(void)
 	TEST_ASSERT_TRUE(lobe_decay(1e30f, 0.0f) == 1.0f);
 }
 
-/* --- members that are known ------------------------------------------------------------------------------------------ */
+/* --- members that are known --------------------------------------------------------------------------------------- */
 
 /* d of slopes r is GGX of slopes r/width. */
 static void assert_ggx(const char *what, lobe_distribution d, float width)
@@ -322,7 +318,7 @@ static void test_shape_invariance(void)
 	TEST_ASSERT_TRUE(one > 0.1 && most > 0.1 && three > 0.1);
 }
 
-/* --- single precision against double --------------------------------------------------------------------------------- */
+/* --- single precision against double ------------------------------------------------------------------------------ */
 
 static void test_double(void)
 {

@@ -2,20 +2,17 @@
  * its error; and that the errors people make with the published formulas would be seen. */
 #include "distribution_cases.h"
 #include "measured.h"
+#include "support.h"
 
 #include "unity.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#define PI 3.14159265358979323846
-
 static float table[LOBE_PROFILE_WORDS];
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
-
-static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
 
 /* (1, 0, z) for z = 10^-4 to 10^4 */
 enum { VIEWS = 400 };

@@ -12,15 +12,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 static const distribution_case *cases;
 static size_t count;
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
-
-static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
 
 static void test_made(void)
 {
@@ -60,11 +56,11 @@ static double ring_seen(void *context, double r)
 {
 	const seen *q = context;
 	if (q->psi0 == -PI && q->psi1 == PI)
-		return reference_kernel(q->s, q->z, r) / (2.0 * PI);
+		return reference_kernel(q->s, q->z, r) / TWO_PI;
 	const double a = q->s * r;
 	const double edge = q->z >= a ? PI : q->z <= -a ? 0.0 : 2.0 * asin(sqrt(0.5 * (a + q->z) / a));
 	const double p0 = fmax(q->psi0, -edge), p1 = fmin(q->psi1, edge);
-	return p1 > p0 ? (q->z * (p1 - p0) + a * (sin(p1) - sin(p0))) / (2.0 * PI) : 0.0;
+	return p1 > p0 ? (q->z * (p1 - p0) + a * (sin(p1) - sin(p0))) / TWO_PI : 0.0;
 }
 
 /* Of the rings r0 to r1; in two pieces where one is not smooth. */
@@ -79,7 +75,7 @@ static double seen_between(const seen *q, double r0, double r1)
 
 static double steepness(lobe_vec3 m) { return hypot((double)m.x, (double)m.y) / (double)m.z; }
 
-/* --- cumulative distributions -------------------------------------------------------------------------------------- */
+/* --- cumulative distributions ------------------------------------------------------------------------------------- */
 
 enum { RINGS = 16 };
 
@@ -171,7 +167,7 @@ static void test_azimuth(void)
 	measured("cumulative distribution of the azimuth", worst, 1e-6);
 }
 
-/* --- order and extremes ---------------------------------------------------------------------------------------------- */
+/* --- order and extremes ------------------------------------------------------------------------------------------- */
 
 static void test_order(void)
 {
@@ -239,7 +235,7 @@ static void test_extremes(void)
 	TEST_ASSERT_EQUAL_UINT(0, bad);
 }
 
-/* --- chi-square ------------------------------------------------------------------------------------------------------ */
+/* --- chi-square --------------------------------------------------------------------------------------------------- */
 
 enum { RING_BINS = 20, PSI_BINS = 16, BINS = RING_BINS * PSI_BINS, SAMPLES = 1000000 };
 
@@ -265,7 +261,7 @@ static double one(void *context, double r)
 static int bin_of(const double *edge, lobe_vec3 m, double azimuth)
 {
 	const double r = steepness(m);
-	double turns = (atan2((double)m.y, (double)m.x) - azimuth) / (2.0 * PI) + 0.5;
+	double turns = (atan2((double)m.y, (double)m.x) - azimuth) / TWO_PI + 0.5;
 	int ring = 0;
 	while (ring < RING_BINS - 1 && r >= edge[ring + 1])
 		ring++;
@@ -288,8 +284,8 @@ static double p_value(const distribution_case *c, lobe_distribution d, lobe_vec3
 	for (int i = 0; i < BINS; i++) {
 		const int ring = i / PSI_BINS;
 		observed[i] = 0;
-		q.psi0 = -PI + 2.0 * PI * (i % PSI_BINS) / PSI_BINS;
-		q.psi1 = q.psi0 + 2.0 * PI / PSI_BINS;
+		q.psi0 = -PI + TWO_PI * (i % PSI_BINS) / PSI_BINS;
+		q.psi1 = q.psi0 + TWO_PI / PSI_BINS;
 		if (plain)
 			expected[i] = ring_integral(c, edge[ring], edge[ring + 1], one, NULL) / PSI_BINS;
 		else if (i % PSI_BINS >= PSI_BINS / 2)

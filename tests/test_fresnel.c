@@ -3,6 +3,7 @@
 #include "lobe/core/fresnel.h"
 #include "lobe/core/fresnel_schlick.h"
 
+#include "directions.h"
 #include "fresnel_exact.h"
 #include "measured.h"
 #include "support.h"
@@ -15,7 +16,7 @@
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-/* --- dielectric ----------------------------------------------------------------------------------------------------- */
+/* --- dielectric --------------------------------------------------------------------------------------------------- */
 
 enum { INDICES = 260 };
 
@@ -232,8 +233,7 @@ static void test_dielectric_planted(void)
 	TEST_ASSERT_TRUE(w.value > 0.01);
 }
 
-/* --- refraction
- * ------------------------------------------------------------------------------------------------------- */
+/* --- refraction --------------------------------------------------------------------------------------------------- */
 
 typedef struct {
 	double x, y, z;
@@ -261,13 +261,6 @@ static vec combine(double s, vec a, double t, vec b)
 
 static double length(vec a) { return sqrt(dot(a, a)); }
 
-static lobe_vec3 direction(uint32_t stream, uint64_t i)
-{
-	float w[3];
-	test_direction(stream, i, w);
-	return lobe_vec3_make(w[0], w[1], w[2]);
-}
-
 #define RAYS 400000
 
 /* Number i of many w and m with w.m > 0, and an index; some nearly parallel, some grazing. */
@@ -279,8 +272,8 @@ typedef struct {
 static int make_ray(uint64_t i, ray *r)
 {
 	const double bend = pow(10.0, -4.0 * (double)test_uniform(12, i));
-	r->m = direction(10, i);
-	lobe_vec3 w = direction(11, i);
+	r->m = random_direction(10, i);
+	lobe_vec3 w = random_direction(11, i);
 	if (i % 3 == 1) /* close to m */
 		w = lobe_normalize(lobe_vec3_fma((float)bend, w, r->m));
 	if (i % 3 == 2) /* close to the surface */
@@ -401,7 +394,7 @@ static void test_reflect(void)
 	measured("reflect: | |t| - 1 |", unit, 29.5 * U);
 }
 
-/* --- Schlick -------------------------------------------------------------------------------------------------------- */
+/* --- Schlick ------------------------------------------------------------------------------------------------------ */
 
 static void check_schlick(float eta, double expected, double digit)
 {

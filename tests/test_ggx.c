@@ -2,6 +2,7 @@
 #include "stretched_ggx.h"
 
 #include "chi_square.h"
+#include "directions.h"
 #include "measured.h"
 #include "support.h"
 #include "unity.h"
@@ -10,54 +11,41 @@
 #include <math.h>
 #include <stdio.h>
 
-#define U  0x1p-24 /* half an ulp of 1: what one rounding takes at most, relative to the result */
-#define PI 3.14159265358979323846L
+#define U 0x1p-24 /* half an ulp of 1: what one rounding takes at most, relative to the result */
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-/* A NaN is larger than everything. */
-static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
-
 static const float widths[] = {1e-4f, 3e-4f, 1e-3f, 1e-2f, 0.1f, 0.3f, 1.0f};
 #define WIDTHS (sizeof widths / sizeof widths[0])
-
-/* The direction at a polar angle given by its cosine, or by its sine where that is small. */
-static lobe_vec3 at_cosine(double c, double phi)
-{
-	const double s = sqrt((1.0 - c) * (1.0 + c));
-	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)c);
-}
 
 /* Number i of many directions above the surface: everywhere, near the horizon down to 1e-6, near the pole. */
 static lobe_vec3 direction(uint32_t stream, uint64_t i)
 {
-	const double u = (double)test_uniform(stream, 2 * i),
-		     phi = 2.0 * (double)PI * (double)test_uniform(stream, 2 * i + 1);
+	const double u = (double)test_uniform(stream, 2 * i), phi = TWO_PI * (double)test_uniform(stream, 2 * i + 1);
 	if (i % 3 == 0)
-		return at_cosine(u + 1e-6, phi);
+		return direction_at(u + 1e-6, phi);
 	if (i % 3 == 1)
-		return at_cosine(pow(10.0, -6.0 * u), phi);
+		return direction_at(pow(10.0, -6.0 * u), phi);
 	const double s = pow(10.0, -6.0 * u);
 	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)sqrt((1.0 - s) * (1.0 + s)));
 }
 
-/* --- D ---------------------------------------------------------------------------------------------------------------
- */
+/* --- D ------------------------------------------------------------------------------------------------------------ */
 
 /* The textbook: 1/(pi ax ay ((x/ax)^2 + (y/ay)^2 + z^2)^2), at the very components that are given. */
 static long double exact_d(float ax, float ay, lobe_vec3 m)
 {
 	const long double x = (long double)m.x / (long double)ax, y = (long double)m.y / (long double)ay;
 	const long double q = x * x + y * y + (long double)m.z * (long double)m.z;
-	return 1.0L / (PI * (long double)ax * (long double)ay * q * q);
+	return 1.0L / ((long double)PI * (long double)ax * (long double)ay * q * q);
 }
 
 /* Two widespread forms that know the angle from its cosine alone. a2 cos^2 + sin^2 by 1 - cos^2 : */
 static float d_one_minus_cos2(float a, float z)
 {
 	const float k = a / (1.0f - z * z + a * z * (a * z));
-	return k * k * (float)(1.0L / PI);
+	return k * k * (float)(1.0 / PI);
 }
 
 /* and as in Karis 2013, "Real shading in Unreal Engine 4". */
@@ -65,7 +53,7 @@ static float d_karis(float a, float z)
 {
 	const float a2 = a * a;
 	const float d = (z * a2 - z) * z + 1.0f;
-	return a2 / (d * d) * (float)(1.0L / PI);
+	return a2 / (d * d) * (float)(1.0 / PI);
 }
 
 static void test_d(void)
@@ -99,7 +87,7 @@ static void test_d_peak(void)
 		double worst = 0.0, worst_cos2 = 0.0, worst_karis = 0.0;
 		for (uint64_t l = 0; l < 100000; l++) {
 			const double s = 4.0 * (double)a * (double)test_uniform(2, 2 * l),
-				     phi = 6.283 * (double)test_uniform(2, 2 * l + 1);
+				     phi = TWO_PI * (double)test_uniform(2, 2 * l + 1);
 			const lobe_vec3 m = {(float)(s * cos(phi)), (float)(s * sin(phi)),
 					     (float)sqrt((1.0 - s) * (1.0 + s))};
 			const long double e = exact_d(a, a, m);
@@ -137,8 +125,7 @@ static void test_d_domain(void)
 	TEST_ASSERT_TRUE(isnan(lobe_stretch_make(NAN, 0.5f).alpha_x) && lobe_stretch_make(NAN, 0.5f).alpha_y == 0.5f);
 }
 
-/* --- integrals of D --------------------------------------------------------------------------------------------------
- */
+/* --- integrals of D ----------------------------------------------------------------------------------------------- */
 
 typedef struct {
 	double x, y, z;
@@ -207,7 +194,7 @@ static void test_normalisation(void)
 		for (size_t j = 0; j < WIDTHS; j++) {
 			const integrand f = {
 				lobe_stretch_make(widths[i], widths[j]), {0.0f, 0.0f, 1.0f}, weight_normal};
-			worst = worse(worst, fabs(integrate(&f, 0.0, 1.0, 0.0, 2.0 * (double)PI, 40) - 1.0));
+			worst = worse(worst, fabs(integrate(&f, 0.0, 1.0, 0.0, TWO_PI, 40) - 1.0));
 		}
 	}
 	/* D is off by 21 U at worst; m is rounded to floats, which moves D z by 5 U. */
@@ -230,7 +217,7 @@ static double visible_row(double z, void *parameters)
 	/* On the circle of height z normals are visible within an angle of half around the azimuth of w. */
 	const double s = sqrt((1.0 - z) * (1.0 + z)), r = sqrt(w.x * w.x + w.y * w.y);
 	const double cosine = r * s > 0.0 ? -w.z * z / (r * s) : -1.0;
-	const double half = cosine <= -1.0 ? (double)PI : cosine >= 1.0 ? 0.0 : acos(cosine);
+	const double half = cosine <= -1.0 ? PI : cosine >= 1.0 ? 0.0 : acos(cosine);
 	const double middle = atan2(w.y, w.x);
 	static gsl_integration_glfixed_table *rule = NULL;
 	if (!rule)
@@ -252,7 +239,7 @@ static void test_projected_area(void)
 	for (size_t i = 0; i < WIDTHS; i++) {
 		for (size_t j = 0; j < WIDTHS; j++) {
 			for (size_t k = 0; k < sizeof cosines / sizeof cosines[0]; k++) {
-				integrand f = {lobe_stretch_make(widths[i], widths[j]), at_cosine(cosines[k], 0.7),
+				integrand f = {lobe_stretch_make(widths[i], widths[j]), direction_at(cosines[k], 0.7),
 					       weight_visible};
 				gsl_function row;
 				row.function = visible_row;
@@ -273,8 +260,7 @@ static void test_projected_area(void)
 	measured("(z + t)/2 against the integral of max(0, w.m) D: relative", worst, 31.0 * U);
 }
 
-/* --- masking ---------------------------------------------------------------------------------------------------------
- */
+/* --- masking ------------------------------------------------------------------------------------------------------ */
 
 /* Heitz 2014: Lambda = (sqrt(1 + a^2 tan^2) - 1)/2. */
 static long double exact_lambda(float ax, float ay, lobe_vec3 w)
@@ -379,8 +365,7 @@ static void test_stretch_invariance(void)
 	measured("sample(ax, ay) against sample(1, 1) stretched", worst_sample, 2.0 * sqrt(7.0 * U));
 }
 
-/* --- visible normals
- * -------------------------------------------------------------------------------------------------- */
+/* --- visible normals ---------------------------------------------------------------------------------------------- */
 
 /* The last cells of u.y on the side where the cap's point and v add up: slopes of the visible normals against the cap
  * in long double. Planted: the point's distance from the axis as the root of h (2 t - h). */
@@ -390,7 +375,7 @@ static void test_visible_far_end(void)
 	for (size_t k = 0; k < WIDTHS; k++)
 		for (int angle = 1; angle < 90; angle++)
 			for (uint32_t i = 1; i <= 64u; i++) {
-				const double theta = (double)angle * (double)PI / 180.0;
+				const double theta = (double)angle * PI / 180.0;
 				const lobe_vec3 v =
 					lobe_vec3_make(widths[k] * (float)sin(theta), 0.0f, (float)cos(theta));
 				const lobe_vec2 u = lobe_vec2_make(0.0f, 1.0f - (float)i * (float)U);
@@ -441,18 +426,18 @@ static double visible_p_value(sampler sample, lobe_stretch d, lobe_vec3 w, uint3
 	static double probability[Z_BINS * PHI_BINS];
 	const integrand f = {d, w, weight_visible};
 	const float t = stretched_ggx_t(d, w);
-	const double sigma = 0.5 * ((double)w.z + (double)t), two_pi = 2.0 * (double)PI;
+	const double sigma = 0.5 * ((double)w.z + (double)t);
 	for (int i = 0; i < Z_BINS * PHI_BINS; i++) {
-		const double z = (double)(i / PHI_BINS) / Z_BINS, phi = two_pi * (i % PHI_BINS) / PHI_BINS;
+		const double z = (double)(i / PHI_BINS) / Z_BINS, phi = TWO_PI * (i % PHI_BINS) / PHI_BINS;
 		count[i] = 0;
-		probability[i] = integrate(&f, z, z + 1.0 / Z_BINS, phi, phi + two_pi / PHI_BINS, 16) / sigma;
+		probability[i] = integrate(&f, z, z + 1.0 / Z_BINS, phi, phi + TWO_PI / PHI_BINS, 16) / sigma;
 	}
 	for (uint64_t i = 0; i < SAMPLES; i++) {
 		float u[3];
 		test_u3(stream, i, u);
 		const lobe_vec3 m = sample(d, w, t, lobe_vec2_make(u[0], u[1]));
 		const double x = (double)m.x / (double)d.alpha_x, y = (double)m.y / (double)d.alpha_y, z = (double)m.z;
-		double turns = atan2(y, x) / two_pi;
+		double turns = atan2(y, x) / TWO_PI;
 		turns -= floor(turns);
 		int row = (int)(z / sqrt(x * x + y * y + z * z) * Z_BINS), phi = (int)(turns * PHI_BINS);
 		row = row < 0 ? 0 : row >= Z_BINS ? Z_BINS - 1 : row;
@@ -479,7 +464,7 @@ static void test_visible_chi_square(void)
 	const double level = 1.0 - pow(0.99, 1.0 / (double)n);
 	for (size_t i = 0; i < n; i++) {
 		const lobe_stretch d = lobe_stretch_make(cases[i].ax, cases[i].ay);
-		const lobe_vec3 w = at_cosine(cases[i].cosine, cases[i].phi);
+		const lobe_vec3 w = direction_at(cases[i].cosine, cases[i].phi);
 		const double p = visible_p_value(stretched_ggx_visible, d, w, 10 + (uint32_t)i);
 		printf("  alpha %-6g %-6g cos %-6g p = %8.3g   level %.3g\n", (double)cases[i].ax, (double)cases[i].ay,
 		       cases[i].cosine, p, level);
@@ -487,7 +472,7 @@ static void test_visible_chi_square(void)
 			measured("the chi-square p of that case, negated", -p, -level);
 	}
 	const lobe_stretch d = lobe_stretch_make(0.5f, 0.05f);
-	const lobe_vec3 w = at_cosine(0.6, 0.9);
+	const lobe_vec3 w = direction_at(0.6, 0.9);
 	const double height = visible_p_value(sample_wrong_height, d, w, 10),
 		     width = visible_p_value(sample_wrong_width, d, w, 10);
 	printf("  planted: height 1 - w'.z p = %.3g, width 3 %% off p = %.3g\n", height, width);
@@ -508,7 +493,7 @@ static void test_visible_extremes(void)
 	for (size_t i = 0; i < WIDTHS * WIDTHS; i++) {
 		const lobe_stretch d = lobe_stretch_make(widths[i / WIDTHS], widths[i % WIDTHS]);
 		for (size_t j = 0; j < 7 * 6; j++) {
-			lobe_vec3 w = at_cosine(cosines[j / 6], azimuths[j % 6]);
+			lobe_vec3 w = direction_at(cosines[j / 6], azimuths[j % 6]);
 			for (int k = 0; k < 2; k++) {
 				const float t = stretched_ggx_t(d, w);
 				for (uint64_t l = 0; l < corners * corners + 200; l++) {

@@ -11,14 +11,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#define U  0x1p-24
-#define PI 3.14159265358979323846
+#define U 0x1p-24
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-/* A NaN is larger than everything. */
-static double worse(double a, double b) { return isnan(b) ? HUGE_VAL : larger(a, b); }
 static double uniform(uint32_t stream, uint64_t i) { return (double)test_uniform(stream, i); }
 
 /* The distributions without a shape that this build has and that leadr.c knows. */
@@ -67,7 +64,7 @@ static leadr as_floats(leadr s)
 
 static lobe_vec3 rounded(const double v[3]) { return lobe_vec3_make((float)v[0], (float)v[1], (float)v[2]); }
 
-/* --- constructors ------------------------------------------------------------------------------------------------ */
+/* --- constructors ------------------------------------------------------------------------------------------------- */
 
 static int same(lobe_vec3 a, lobe_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -148,7 +145,7 @@ static void test_constructors(void)
 				if (det / large > 0.51e-8) {
 					const covariance d = covariance_of(n);
 					/* det A = 2 sqrt(det Cov), which no cancellation may touch. */
-					const double norm = 1.0 / (2.0 * PI * sqrt(det));
+					const double norm = 1.0 / (TWO_PI * sqrt(det));
 					moments = worse(moments, fabs((double)n.norm / norm - 1.0));
 					moments = worse(moments, fabs(d.xx - (double)fx) / large);
 					moments = worse(moments, fabs(d.yy - (double)fy) / large);
@@ -274,7 +271,7 @@ static void test_d(void)
 			const lobe_smith m = surface_of(&s, n);
 			/* A facet within 8 widths of the mean (4 where exp takes over). */
 			const double r = (s.kind == LEADR_GGX ? 8.0 : 4.0) * uniform(5, 2 * i),
-				     phi = 2.0 * PI * uniform(5, 2 * i + 1);
+				     phi = TWO_PI * uniform(5, 2 * i + 1);
 			const double x = r * cos(phi), y = r * sin(phi);
 			double h[3] = {-(s.ax * x + s.tx), -(s.ay * (s.rho * x + sqrt(1.0 - s.rho * s.rho) * y) + s.ty),
 				       1.0};

@@ -9,6 +9,7 @@
 #include "chi_square.h"
 #include "double.h"
 #include "lobe/lobe.h"
+#include "directions.h"
 #include "quadrature.h"
 #include "support.h"
 #include "textbook.h"
@@ -248,11 +249,7 @@ static chi_square fit_of(const histogram *h)
 static const double views[][2] = {{1.0, 0.0}, {0.7, 0.6}, {0.25, 2.2}, {0.04, 4.0}, {-0.8, 5.5}, {-0.15, 1.2}};
 #define VIEWS (sizeof views / sizeof *views)
 
-static lobe_vec3 view(size_t i)
-{
-	const double z = views[i][0], s = sqrt((1.0 - z) * (1.0 + z));
-	return lobe_vec3_make((float)(s * cos(views[i][1])), (float)(s * sin(views[i][1])), (float)z);
-}
+static lobe_vec3 view(size_t i) { return direction_at(views[i][0], views[i][1]); }
 
 /* The double build is looked at where float directions are too coarse to resolve the lobe. */
 static int planned(const test_case *c, lobe_vec3 wo, int in_double)

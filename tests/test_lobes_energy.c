@@ -1,4 +1,5 @@
 /* test_lobes_energy.c - how much light a lobe returns: albedo, furnaces with exact answers, masking across it. */
+#include "directions.h"
 #include "energy_table.h"
 #include "cases.h"
 #include "quadrature.h"
@@ -14,12 +15,6 @@
 
 void setUp(void) {}
 void tearDown(void) {}
-
-static lobe_vec3 direction(double z, double phi)
-{
-	const double s = sqrt((1.0 - z) * (1.0 + z));
-	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
-}
 
 static lobe_vec3 to_vec3(const double v[3]) { return lobe_vec3_make((float)v[0], (float)v[1], (float)v[2]); }
 
@@ -103,7 +98,7 @@ static void test_no_lobe_returns_more_than_it_receives(void)
 		const int facets = c->alpha_x > 0.0;
 		const lobe_stretch ggx = lobe_stretch_make((lobe_real)c->alpha_x, (lobe_real)c->alpha_y);
 		for (size_t k = 0; k < COSINES && !(c->flags & CASE_DELTA_ONLY); k++) {
-			const lobe_vec3 wo = direction(cosines[k], 1.0 + (double)k);
+			const lobe_vec3 wo = direction_at(cosines[k], 1.0 + (double)k);
 			double error = 0.0;
 			if ((wo.z < 0.0f && !(c->flags & CASE_TWO_SIDED)) || (!test_long() && (i + k) % 2 == 1) ||
 			    case_rounding(c, wo) > 0.01)
@@ -140,7 +135,7 @@ static void test_furnace_at_alpha_1_is_exact(void)
 	for (size_t i = 0; i < sizeof mus / sizeof *mus; i++) {
 		const double mu = (double)(float)mus[i];
 		const double exact = 1.0 - mu * log((1.0 + mu) / mu);
-		const lobe_vec3 wo = direction(mus[i], 0.3);
+		const lobe_vec3 wo = direction_at(mus[i], 0.3);
 		worst_core = fmax(worst_core, fabs(albedo(NULL, one, wo, MAP_REFLECT, 0.0, 1e-7, NULL) - exact));
 		worst_lobe = fmax(worst_lobe, fabs(albedo(&mirror, one, wo, MAP_REFLECT, 0.0, 1e-7, NULL) - exact));
 	}
@@ -162,7 +157,8 @@ static void test_furnace_matches_the_reference_table(void)
 		for (int k = 0; k < ENERGY_MUS; k++) {
 			const lobe_stretch ggx =
 				lobe_stretch_make((lobe_real)energy_alphas[i], (lobe_real)energy_alphas[i]);
-			const double e = albedo(NULL, ggx, direction(energy_mus[k], 2.0), MAP_REFLECT, 0.0, 1e-7, NULL);
+			const double e =
+				albedo(NULL, ggx, direction_at(energy_mus[k], 2.0), MAP_REFLECT, 0.0, 1e-7, NULL);
 			if (fabs(e - energy_table[i][k]) > 6e-5)
 				printf("  alpha %.2f mu %.2f: %.6f, table %.4f\n", energy_alphas[i], energy_mus[k], e,
 				       energy_table[i][k]);
@@ -227,7 +223,7 @@ static double weak_sphere(void *context, double x, double y)
 
 static double weak(quadrature_integrand f, double ax, double ay, double mu, int masking)
 {
-	const lobe_vec3 wo = direction(mu, 0.8);
+	const lobe_vec3 wo = direction_at(mu, 0.8);
 	const double o[3] = {(double)wo.x, (double)wo.y, (double)wo.z};
 	weak_furnace w = {lobe_stretch_make((lobe_real)ax, (lobe_real)ay), map_make(MAP_REFLECT, o, ax, ay, 1.0), wo,
 			  masking};

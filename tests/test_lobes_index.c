@@ -1,5 +1,6 @@
 /* test_lobes_index.c - what happens as the index of refraction goes to 1: an interface between equal media is none. */
 #include "cases.h"
+#include "directions.h"
 #include "support.h"
 #include "textbook.h"
 
@@ -10,12 +11,6 @@
 
 void setUp(void) {}
 void tearDown(void) {}
-
-static lobe_vec3 direction(double z, double phi)
-{
-	const double s = sqrt((1.0 - z) * (1.0 + z));
-	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
-}
 
 static void test_index_1_passes_light_straight_through(void)
 {
@@ -61,7 +56,7 @@ static share shares(double alpha, double eta, double mu, uint32_t stream)
 	const lobe_ggx_dielectric p = lobe_ggx_dielectric_transport(
 		lobe_ggx_dielectric_make((lobe_real)alpha, (lobe_real)alpha, (lobe_real)eta),
 		LOBE_TRANSPORT_IMPORTANCE);
-	const lobe_vec3 wo = direction(mu, 0.5);
+	const lobe_vec3 wo = direction_at(mu, 0.5);
 	share r = {0.0, 0.0, 0.0, p.delta != 0u};
 	for (uint32_t i = 0; i < n; i++) {
 		float u[3];

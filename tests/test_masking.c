@@ -1,5 +1,6 @@
 /* test_masking.c - masking and shadowing: weak furnaces, exact albedos, bounds, symmetries and limits of every joint,
  * and the beta function. Known values: Heitz 2014's statements, and quadrature made apart from this library. */
+#include "directions.h"
 #include "measured.h"
 #include "microsurface_cases.h"
 #include "support.h"
@@ -33,7 +34,7 @@ static lobe_seen_facet seen_facet(lobe_vec3 o, lobe_vec3 i, lobe_vec3 h)
 	return m;
 }
 
-/* --- weak furnace: int G1(o, m) max(0, o.m) D(m) dm = the mean plane's area seen from o ------------------------------- */
+/* --- weak furnace: int G1(o, m) max(0, o.m) D(m) dm = the mean plane's area seen from o --------------------------- */
 
 /* G1/z, of those maskings that have one of a single direction: G2 with a light that shadows nothing, along the mean
  * normal of an unsheared surface. */
@@ -171,7 +172,7 @@ static void test_weak_furnace_of_what_is_no_surface(void)
 	}
 }
 
-/* --- albedo with F = 1 ------------------------------------------------------------------------------------------------- */
+/* --- albedo with F = 1 -------------------------------------------------------------------------------------------- */
 
 typedef struct {
 	lobe_microfacet_conductor p;
@@ -260,7 +261,7 @@ static double sum_over_hemisphere(double mu, int neumann)
 			continue;
 		}
 		for (int k = 0; k < turns; k++) {
-			const double cosine = mu * z + s_o * s * cos(6.283185307179586 * (k + 0.5) / turns);
+			const double cosine = mu * z + s_o * s * cos(TWO_PI * (k + 0.5) / turns);
 			sum += 2.0 * z / (2.0 + 2.0 * cosine) / ((double)n * turns);
 		}
 	}
@@ -289,7 +290,7 @@ static void test_kelemen_and_neumann(void)
 	TEST_ASSERT_TRUE(brightest > 1.5);
 }
 
-/* --- joints ------------------------------------------------------------------------------------------------------------- */
+/* --- joints ------------------------------------------------------------------------------------------------------- */
 
 static const lobe_uint joints[] = {LOBE_JOINT_HEIGHT, LOBE_JOINT_SEPARABLE, LOBE_JOINT_DIRECTION,
 				   LOBE_JOINT_HEIGHT_DIRECTION};
@@ -360,16 +361,16 @@ static void test_joints_keep_their_bounds(void)
 /* Opposite azimuths at angle p = pi: l = 13.85/14.85; the factor wraps and knows no sense of rotation. */
 static void test_van_ginneken(void)
 {
-	const double pi = 3.14159265358979323846, at_pi = 4.41 * pi / (4.41 * pi + 1.0);
+	const double at_pi = 4.41 * PI / (4.41 * PI + 1.0);
 	double worst = 0.0;
 	for (int k = -400; k <= 400; k++) {
-		const double p = pi * k / 100.0, wrapped = fabs(remainder(p, 2.0 * pi));
+		const double p = PI * k / 100.0, wrapped = fabs(remainder(p, TWO_PI));
 		const lobe_vec3 o = direction_at(0.5, 3.0), i = direction_at(0.2, 3.0 + p);
 		const double expected = 4.41 * wrapped / (4.41 * wrapped + 1.0);
 		worst = larger(worst, fabs((double)lobe_masking_azimuth_make(o, i).apart - expected));
 	}
 	measured("van Ginneken's factor, any azimuths: off", worst, 2e-6);
-	const lobe_vec3 o = direction_at(0.3, 0.0), i = direction_at(0.2, pi);
+	const lobe_vec3 o = direction_at(0.3, 0.0), i = direction_at(0.2, PI);
 	lobe_microsurface s = ggx(0.7);
 	const double lo = 1.0 / g1(s, o) - 1.0, li = 1.0 / g1(s, i) - 1.0;
 	s.joint = LOBE_JOINT_HEIGHT_DIRECTION;
@@ -392,7 +393,7 @@ static void test_behind_the_mean_plane(void)
 		double value[2];
 		for (int side = 0; side < 2; side++) {
 			/* w.z - w.x = +- 1e-6 */
-			const double angle = 0.78539816339744831 + (side ? 1e-6 : -1e-6);
+			const double angle = 0.25 * PI + (side ? 1e-6 : -1e-6);
 			const lobe_vec3 o = lobe_vec3_make((float)cos(angle), 0.0f, (float)sin(angle));
 			s.joint = joints[k];
 			const lobe_vec3 h = lobe_vec3_add(o, i);
@@ -408,7 +409,7 @@ static void test_behind_the_mean_plane(void)
 							       seen_facet(o, back, lobe_vec3_add(o, back)), 0));
 }
 
-/* --- beta ---------------------------------------------------------------------------------------------------------------- */
+/* --- beta --------------------------------------------------------------------------------------------------------- */
 
 static void test_beta(void)
 {

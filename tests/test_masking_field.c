@@ -21,8 +21,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 enum { WAVES = 128, POINTS = 12000, BINS = 6 };
 #define STEP 0.05 /* of points along a cut; the correlation length is sqrt(2) */
 
@@ -31,7 +29,7 @@ static int fields(void) { return test_long() ? 1000 : 100; }
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-/* --- fields ------------------------------------------------------------------------------------------------------ */
+/* --- fields ------------------------------------------------------------------------------------------------------- */
 
 /* Heights sum amplitude cos(k.x + phase) + tilt.x. */
 typedef struct {
@@ -46,10 +44,10 @@ static field field_make(uint32_t seed)
 {
 	field f;
 	for (uint64_t i = 0; i < WAVES; i++) {
-		const double r = sqrt(-2.0 * log(uniform(seed, 3 * i))), turn = 2.0 * PI * uniform(seed, 3 * i + 1);
+		const double r = sqrt(-2.0 * log(uniform(seed, 3 * i))), turn = TWO_PI * uniform(seed, 3 * i + 1);
 		f.kx[i] = r * cos(turn);
 		f.ky[i] = r * sin(turn);
-		f.phase[i] = 2.0 * PI * uniform(seed, 3 * i + 2);
+		f.phase[i] = TWO_PI * uniform(seed, 3 * i + 2);
 	}
 	f.amplitude = 1.0 / sqrt((double)WAVES);
 	f.tilt_x = f.tilt_y = 0.0;
@@ -95,7 +93,7 @@ static void cut(const field *f, double x, double y, double dx, double dy, double
 	}
 }
 
-/* --- what is seen ------------------------------------------------------------------------------------------------ */
+/* --- what is seen ------------------------------------------------------------------------------------------------- */
 
 /* Of a cut, per its length: projected area of all that faces the viewer and of what is seen; and by number, the points
  * that face, those seen, and both by their slopes. */
@@ -145,7 +143,7 @@ static view look(const double height[POINTS], double step, double across, double
 	return r;
 }
 
-/* --- the comparison ---------------------------------------------------------------------------------------------- */
+/* --- the comparison ----------------------------------------------------------------------------------------------- */
 
 /* To widths of .5 and .33, correlated, with mean slopes (.3, -.27). */
 static const point_map M = {2.0, 0.6, 0.0, 3.0, 0.6, -0.63, 1.0};

@@ -12,8 +12,6 @@
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_EQUAL_STRING("", measured_outside()); }
 
-#define PI 3.14159265358979323846
-
 typedef struct {
 	double ax, ay, o[3], i[3];
 	direction_map map;
@@ -25,7 +23,8 @@ static double integrand(void *context, double x, double y)
 	const integral *q = context;
 	double m[3];
 	const double area = map_facet(&q->map, x, y, m);
-	const double g2 = 1.0 / (1.0 + textbook_ggx_lambda(q->ax, q->ay, q->o) + textbook_ggx_lambda(q->ax, q->ay, q->i));
+	const double g2 =
+		1.0 / (1.0 + textbook_ggx_lambda(q->ax, q->ay, q->o) + textbook_ggx_lambda(q->ax, q->ay, q->i));
 	const double seen = fmax(textbook_dot(q->o, m), 0.0) * fmax(textbook_dot(q->i, m), 0.0);
 	return textbook_ggx_d(q->ax, q->ay, m) * seen * g2 / (PI * q->o[2]) * area;
 }

@@ -2,6 +2,7 @@
  * about as efficient as the best of all techniques by variances measured from their own samples; and its expected
  * deviation is theirs. How it does over the whole map of roughness, angle and light: `make report`, section
  * strategies. */
+#include "directions.h"
 #include "measured.h"
 #include "support.h"
 
@@ -15,19 +16,13 @@
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
-static lobe_vec3 direction(double z, double phi)
-{
-	const double r = sqrt((1.0 - z) * (1.0 + z));
-	return lobe_vec3_make((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
-}
-
 /* --- the light's shape -------------------------------------------------------------------------------------------- */
 
 enum { SHAPES = 5 };
 
 static lobe_light_shape shape(int i)
 {
-	const lobe_vec3 axis = direction(0.64, 1.3);
+	const lobe_vec3 axis = direction_at(0.64, 1.3);
 	lobe_light_shape sun = lobe_light_shape_disk(axis, 0.024f, 0.8f);
 	sun.slope = -2.0f / 3.0f;
 	switch (i) {
@@ -40,7 +35,7 @@ static lobe_light_shape shape(int i)
 	case 3:
 		return lobe_light_shape_with_glow(lobe_light_shape_disk(axis, 0.3f, 0.2f), 0.7f, 0.5f);
 	default:
-		return lobe_light_shape_disk(direction(0.05, 2.0), 0.4f, 1.0f);
+		return lobe_light_shape_disk(direction_at(0.05, 2.0), 0.4f, 1.0f);
 	}
 }
 
@@ -61,8 +56,8 @@ static double misfit(lobe_light_shape drawn, lobe_light_shape of, uint32_t strea
 		for (int k = 0; k < SECTORS * FINE; k++) {
 			/* 1 - cos = 2 x^3, as lights are small */
 			const double x = (i + 0.5) / (RINGS * FINE), h = 2.0 * x * x * x;
-			const double phi = 6.283185307179586 * (k + 0.5) / (SECTORS * FINE), r = sqrt(h * (2.0 - h));
-			const double area = 6.0 * x * x / (RINGS * FINE) * 6.283185307179586 / (SECTORS * FINE);
+			const double phi = TWO_PI * (k + 0.5) / (SECTORS * FINE), r = sqrt(h * (2.0 - h));
+			const double area = 6.0 * x * x / (RINGS * FINE) * TWO_PI / (SECTORS * FINE);
 			const lobe_vec3 local =
 				lobe_vec3_make((float)(r * cos(phi)), (float)(r * sin(phi)), (float)(1.0 - h));
 			const double p = (double)lobe_light_shape_density(of, lobe_frame_to_world(frame, local)) * area;
@@ -76,7 +71,7 @@ static double misfit(lobe_light_shape drawn, lobe_light_shape of, uint32_t strea
 		const lobe_vec3 local = lobe_frame_to_local(frame, w);
 		const lobe_vec3 chord = lobe_vec3_fma(-1.0f, of.axis, w);
 		const double x = cbrt(0.25 * (double)lobe_dot(chord, chord));
-		const double turn = atan2((double)local.y, (double)local.x) / 6.283185307179586;
+		const double turn = atan2((double)local.y, (double)local.x) / TWO_PI;
 		const int ring = (int)fmin(x * RINGS, RINGS - 1.0);
 		const int sector = (int)fmin((turn < 0.0 ? turn + 1.0 : turn) * SECTORS, SECTORS - 1.0);
 		found[ring * SECTORS + sector] += 1.0 / n;
@@ -120,8 +115,8 @@ typedef struct {
 } question;
 
 /* A light aside, and one in the mirror image of the viewer at z (phi 0). */
-static lobe_vec3 aside(void) { return direction(0.64, 1.3); }
-static lobe_vec3 mirrored(double z) { return direction(z, 3.14159265358979324); }
+static lobe_vec3 aside(void) { return direction_at(0.64, 1.3); }
+static lobe_vec3 mirrored(double z) { return direction_at(z, PI); }
 
 enum { QUESTIONS = 9 };
 
@@ -200,7 +195,7 @@ static uint32_t samples(void) { return test_long() ? 1000000u : 50000u; }
 static spread spread_of(const question *q, lobe_uint strategy, lobe_uint from, uint32_t stream)
 {
 	const lobe_microfacet_conductor p = white(surface_of(q), strategy);
-	const lobe_vec3 wo = direction(q->z, 0.0);
+	const lobe_vec3 wo = direction_at(q->z, 0.0);
 	const uint32_t n = samples();
 	double s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0;
 	for (uint32_t i = 0; i < n; i++) {
@@ -255,7 +250,7 @@ static void test_recommended_is_about_the_best(void)
 	double worst = 0.0, off = 0.0;
 	for (int i = 0; i < QUESTIONS; i++) {
 		const question q = question_at(i);
-		const lobe_recommendation r = lobe_recommend_strategy(surface_of(&q), direction(q.z, 0.0), q.light,
+		const lobe_recommendation r = lobe_recommend_strategy(surface_of(&q), direction_at(q.z, 0.0), q.light,
 								      lobe_recommend_cost_samples());
 		double error;
 		const double lost = regret(&q, r.strategy, r.from, 60u + (uint32_t)i, &error);
@@ -282,13 +277,13 @@ static void test_recommended_is_about_the_best(void)
 			 1.05 + 3.0 * error);
 }
 
-/* --- the light asked itself ------------------------------------------------------------------------------------------- */
+/* --- the light asked itself --------------------------------------------------------------------------------------- */
 
 /* Two lamps and a faint sky: no disk with a glow around it. In proportion to their power. */
 enum { LAMPS = 2 };
 static lobe_light_shape lamp(int i)
 {
-	return lobe_light_shape_disk(i ? direction(0.3, 2.6) : direction(0.8, 4.0), i ? 0.02f : 0.2f, 0.9f);
+	return lobe_light_shape_disk(i ? direction_at(0.3, 2.6) : direction_at(0.8, 4.0), i ? 0.02f : 0.2f, 0.9f);
 }
 
 static lobe_light_seen two_lamps(lobe_vec3 w)
@@ -359,7 +354,7 @@ static void test_a_light_that_is_asked_itself(void)
 	for (int i = 0; i < 3; i++) {
 		const lobe_microsurface s = lobe_microsurface_make(
 			lobe_distribution_make(LOBE_NDF_GGX), lobe_linear_stretch((float)alphas[i], (float)alphas[i]));
-		const lobe_vec3 wo = direction(0.7, 0.4);
+		const lobe_vec3 wo = direction_at(0.7, 0.4);
 		const lobe_recommendation r = asking(s, wo);
 		const spread own = lamps_spread(s, wo, r.strategy, r.from, 110u);
 		double least = HUGE_VAL;
@@ -390,7 +385,7 @@ static void test_cost_decides(void)
 	const question q = question_at(0);
 	lobe_recommend_cost cost = lobe_recommend_cost_samples();
 	cost.lobe[LOBE_STRATEGY_BOUNDED_CAP] = 100.0f;
-	const lobe_recommendation r = lobe_recommend_strategy(surface_of(&q), direction(q.z, 0.0), q.light, cost);
+	const lobe_recommendation r = lobe_recommend_strategy(surface_of(&q), direction_at(q.z, 0.0), q.light, cost);
 	TEST_ASSERT_TRUE(r.strategy != LOBE_STRATEGY_BOUNDED_CAP);
 }
 
@@ -410,7 +405,7 @@ static void test_extremes_have_an_answer(void)
 					const lobe_light_shape light = lobe_light_shape_disk(
 						where ? aside() : mirrored(cosines[z]), angles[k], where ? 0.5f : 1.0f);
 					const lobe_recommendation r = lobe_recommend_strategy(
-						s, direction(cosines[z], 0.0), light, lobe_recommend_cost_samples());
+						s, direction_at(cosines[z], 0.0), light, lobe_recommend_cost_samples());
 					bad += !(r.deviation >= 0.0f && r.deviation <= 3e38f) ||
 					       r.strategy > LOBE_STRATEGY_LAST || r.from > LOBE_SAMPLE_BOTH_POWER;
 				}
@@ -418,7 +413,7 @@ static void test_extremes_have_an_answer(void)
 	/* Behind the surface nothing is seen, and no number is made up. */
 	const lobe_microsurface s =
 		lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), lobe_linear_stretch(0.3f, 0.3f));
-	const lobe_recommendation r = lobe_recommend_strategy(s, direction(-0.5, 0.0), lobe_light_shape_sky(0.0f),
+	const lobe_recommendation r = lobe_recommend_strategy(s, direction_at(-0.5, 0.0), lobe_light_shape_sky(0.0f),
 							      lobe_recommend_cost_samples());
 	TEST_ASSERT_EQUAL_UINT(LOBE_SAMPLE_LIGHT, r.from);
 	TEST_ASSERT_EQUAL_FLOAT(0.0f, r.deviation);

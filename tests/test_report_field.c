@@ -9,8 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#define PI 3.14159265358979323846
-
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
@@ -32,7 +30,7 @@ static void slope_of(const pair *p, double slope[2])
 	slope[1] = -y / z;
 }
 
-/* --- the report's ------------------------------------------------------------------------------------------------ */
+/* --- the report's ------------------------------------------------------------------------------------------------- */
 
 typedef enum { SOUND, NO_SLOPE, STEEPER, WRONG_SIDE, PLANTS } plant;
 static const char *const plant_names[PLANTS] = {"sound", "facets of any slope", "rays 5 degrees too steep",
@@ -85,10 +83,10 @@ static uint64_t simulate_otherwise(const pair *p, uint64_t wanted, double share[
 		const double size = sqrt(1.0 / OTHER_WAVES);
 		for (uint64_t i = 0; i < OTHER_WAVES; i++) {
 			const uint64_t at = 3 * (n * OTHER_WAVES + i);
-			const double r = sqrt(-2.0 * log(uniform(7100u, at))), turn = 2.0 * PI * uniform(7100u, at + 1);
+			const double r = sqrt(-2.0 * log(uniform(7100u, at))), turn = TWO_PI * uniform(7100u, at + 1);
 			kx[i] = r * cos(turn);
 			ky[i] = r * sin(turn);
-			phase[i] = 2.0 * PI * uniform(7100u, at + 2);
+			phase[i] = TWO_PI * uniform(7100u, at + 2);
 			sx -= size * kx[i] * sin(phase[i]);
 			sy -= size * ky[i] * sin(phase[i]);
 			height += size * cos(phase[i]);

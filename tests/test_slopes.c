@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
 
@@ -65,7 +63,7 @@ static double central_differ(lobe_slope_stats s, double x, double y, double xx, 
 	return worst_of(p, q, 5);
 }
 
-/* --- heights ---------------------------------------------------------------------------------------------------- */
+/* --- heights ------------------------------------------------------------------------------------------------------ */
 
 static double plane(double i, double j) { return 3.0 * i - 0.5 * j + 7.0; }
 
@@ -104,7 +102,7 @@ static double waves(double i, double j)
 {
 	double h = 0.0;
 	for (int k = 0; k < 3; k++)
-		h += amplitude[k] * cos(2.0 * PI * (wave[k][0] * i / WIDTH + wave[k][1] * j / HEIGHT) + 0.3 * k);
+		h += amplitude[k] * cos(TWO_PI * (wave[k][0] * i / WIDTH + wave[k][1] * j / HEIGHT) + 0.3 * k);
 	return h;
 }
 
@@ -118,7 +116,7 @@ static void test_waves(void)
 	map.texel_x = tx;
 	map.texel_y = ty;
 	for (int k = 0; k < 3; k++) {
-		const double kx = 2.0 * PI * wave[k][0] / WIDTH, ky = 2.0 * PI * wave[k][1] / HEIGHT;
+		const double kx = TWO_PI * wave[k][0] / WIDTH, ky = TWO_PI * wave[k][1] / HEIGHT;
 		const double a2 = 0.5 * amplitude[k] * amplitude[k];
 		xx += a2 * sin(kx) * sin(kx) / (tx * tx);
 		yy += a2 * sin(ky) * sin(ky) / (ty * ty);
@@ -189,7 +187,7 @@ static void test_two_passes(void)
 	TEST_ASSERT_TRUE(fabs(raw.var_x / var - 1.0) > 1e-9);
 }
 
-/* --- normals ---------------------------------------------------------------------------------------------------- */
+/* --- normals ------------------------------------------------------------------------------------------------------ */
 
 /* Normals made from the differenced heights have the same moments, in any of their encodings. */
 static void test_normals(void)
@@ -233,7 +231,7 @@ static void test_normals(void)
 	free(encoded);
 }
 
-/* --- pyramid ---------------------------------------------------------------------------------------------------- */
+/* --- pyramid ------------------------------------------------------------------------------------------------------ */
 
 static double noise(double i, double j) { return (double)test_uniform(1, (uint64_t)(i + 4096.0 * j)) + 0.01 * i; }
 
@@ -293,15 +291,15 @@ static void test_pyramid(void)
 	measured("a texel against its overlaps", worst_area, 1e-13);
 }
 
-/* --- layers ----------------------------------------------------------------------------------------------------- */
+/* --- layers ------------------------------------------------------------------------------------------------------- */
 
 static double layer_a(double i, double j)
 {
-	return 1.5 * cos(2.0 * PI * (5.0 * i / WIDTH + 3.0 * j / HEIGHT)) + 0.25 * i - 0.125 * j;
+	return 1.5 * cos(TWO_PI * (5.0 * i / WIDTH + 3.0 * j / HEIGHT)) + 0.25 * i - 0.125 * j;
 }
 static double layer_b(double i, double j)
 {
-	return 0.4 * cos(2.0 * PI * (7.0 * i / WIDTH - 4.0 * j / HEIGHT) + 1.0) - 0.5 * i + 0.75 * j;
+	return 0.4 * cos(TWO_PI * (7.0 * i / WIDTH - 4.0 * j / HEIGHT) + 1.0) - 0.5 * i + 0.75 * j;
 }
 static double both(double i, double j) { return layer_a(i, j) + 2.0 * layer_b(i, j); }
 
@@ -363,7 +361,7 @@ static void test_linear(void)
 	TEST_ASSERT_TRUE(flat.xx == LOBE_ALPHA_MIN && flat.yy == LOBE_ALPHA_MIN && flat.mean_x == 0.0f);
 }
 
-/* --- bad input -------------------------------------------------------------------------------------------------- */
+/* --- bad input ---------------------------------------------------------------------------------------------------- */
 
 static lobe_slope_stats before, after;
 

@@ -17,8 +17,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 enum { SIDE = 20, SAMPLES = 1000000 };
 #define LEVEL 0.01
 
@@ -64,7 +62,7 @@ static double facing(const double v[3], double x, double y)
 {
 	/* x v.n: n = (r cos, r sin, 1), and r x is smooth where r is not. */
 	const double rx = sqrt((1.0 - x) * (1.0 + x));
-	return x * v[2] + rx * (v[0] * cos(2.0 * PI * y) + v[1] * sin(2.0 * PI * y));
+	return x * v[2] + rx * (v[0] * cos(TWO_PI * y) + v[1] * sin(TWO_PI * y));
 }
 
 /* Beckmann's radius under the tail x^2 is sqrt(-ln x^2), and not smooth at 0 nor at 1: bins by GGX's radius instead,
@@ -96,7 +94,7 @@ static int bin_of(const leadr *s, const double m[3])
 {
 	const double x = -m[0] / m[2] - s->tx, y = -m[1] / m[2] - s->ty;
 	const double p = x / s->ax, q = (y / s->ay - s->rho * x / s->ax) / sqrt(1.0 - s->rho * s->rho);
-	double turns = atan2(-q, -p) / (2.0 * PI);
+	double turns = atan2(-q, -p) / TWO_PI;
 	turns -= floor(turns);
 	const int i = (int)(SIDE / sqrt(1.0 + p * p + q * q)), k = (int)(SIDE * turns);
 	return (i < SIDE ? i : SIDE - 1) * SIDE + (k < SIDE ? k : SIDE - 1);

@@ -1,6 +1,7 @@
 /* test_strategies.c - every sampling strategy: its density integrates to 1 less what it rejects, samples follow it, the
  * mean of weights is the albedo whichever strategy made them, and variances are those that are known. */
 #include "chi_square.h"
+#include "directions.h"
 #include "measured.h"
 #include "microsurface_cases.h"
 #include "support.h"
@@ -29,7 +30,7 @@ static lobe_microfacet_conductor mirror(lobe_microsurface s, lobe_uint strategy)
 	return lobe_microfacet_conductor_make(s, lobe_fresnel_model_constant(white), strategy);
 }
 
-/* --- samples against the density ----------------------------------------------------------------------------------------- */
+/* --- samples against the density ---------------------------------------------------------------------------------- */
 
 /* Bins are those of the facet between wo and wi, in coordinates in which its distribution is flat. wrong: the density
  * that samples are compared with is that of another lobe. */
@@ -75,7 +76,7 @@ static int bin_of(const view *v, lobe_vec3 wi)
 	const double u = ((double)map->ixx * sx + (double)map->ixy * sy) / like,
 		     w = ((double)map->iyx * sx + (double)map->iyy * sy) / like;
 	const double x = pow(1.0 / (1.0 + u * u + w * w), 1.0 / 6.0);
-	double y = atan2(w, u) / 6.283185307179586;
+	double y = atan2(w, u) / TWO_PI;
 	y = y < 0.0 ? y + 1.0 : y;
 	const int i = (int)(x * SIDE), k = (int)(y * SIDE);
 	return (i < SIDE ? i : SIDE - 1) * SIDE + (k < SIDE ? k : SIDE - 1);
@@ -224,7 +225,7 @@ static void test_planted_errors_are_caught(void)
 	TEST_ASSERT_TRUE(fabs(jacobian - f.integral) > 0.02);
 }
 
-/* --- weights: one mean, many variances -------------------------------------------------------------------------------- */
+/* --- weights: one mean, many variances ---------------------------------------------------------------------------- */
 
 typedef struct {
 	double mean, variance, rejected, error; /* error: of the mean, one standard deviation */
@@ -375,7 +376,7 @@ static void test_known_variances(void)
 	measured("rejected against known ones of three decimals", worst_rejected, 2e-3);
 }
 
-/* --- refraction --------------------------------------------------------------------------------------------------------- */
+/* --- refraction --------------------------------------------------------------------------------------------------- */
 
 /* The mean weight of glass, reflected and refracted together, is one for all strategies, from both sides. */
 static void test_dielectric_means_agree(void)

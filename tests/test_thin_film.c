@@ -15,8 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define U  0x1p-24
-#define PI 3.14159265358979323846
+#define U 0x1p-24
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
@@ -54,7 +53,7 @@ static double opd_of(stack s)
 	return 2.0 * (double)s.d * sqrt(f * f - 1.0 + c * c);
 }
 
-/* --- Airy ------------------------------------------------------------------------------------------------------- */
+/* --- Airy --------------------------------------------------------------------------------------------------------- */
 
 /* Fresnel's amplitudes carry up to 40 roundings (test_fresnel.c), and R moves by at most twice what either moves. The
  * phase 2 pi OPD/wavelength carries 5 (g 3, products 2), of itself; R moves by no more than 1 for each radian, unless
@@ -73,7 +72,7 @@ static void test_airy_against_complex(void)
 			const double moved =
 				textbook_airy((double)s.c, 1.0, (double)s.film, (double)s.d, (double)s.n[0],
 					      (double)s.k[0], (double)wavelength * (1.0 + 1e-6));
-			const double slope = fmax(2.0 * PI * waves, fabs(moved - exact) * 1e6);
+			const double slope = fmax(TWO_PI * waves, fabs(moved - exact) * 1e6);
 			const double allowed = (80.0 + 5.0 * slope) * U;
 			float got;
 			if (metal) {
@@ -126,7 +125,7 @@ static void test_airy_limits(void)
 		const double path = opd_of(s);
 		s.d = (float)(waves * 550.0 / path);
 		/* d is rounded, and so is g. */
-		half = larger(half, fabs(airy_of(s, 1, 550.0f) - base) / (1.0 + 2.0 * PI * waves));
+		half = larger(half, fabs(airy_of(s, 1, 550.0f) - base) / (1.0 + TWO_PI * waves));
 		s.film = 1.0f;
 		s.d = 333.0f;
 		const double got = airy_of(s, 1, 550.0f);
@@ -169,7 +168,7 @@ static void test_from_inside_it_is_the_same(void)
 	measured("complex arithmetic: 1 - R beyond the critical angle", total, 1e-9);
 }
 
-/* --- RGB -------------------------------------------------------------------------------------------------------- */
+/* --- RGB ---------------------------------------------------------------------------------------------------------- */
 
 /* Belcour and Barla's fit of the CIE 1931 observer as they give it: amplitude, centre and variance, per metre; X has a
  * second lobe. A Gaussian's transform falls as exp(-var (2 pi OPD)^2), so its own variance is 2 var. */
@@ -245,7 +244,7 @@ static double spectral(double nu, void *context)
 	const spectrum *p = context;
 	const stack s = p->s;
 	const double mu = 1e-9 * fit[p->gaussian][1], v = 2e-18 * fit[p->gaussian][2];
-	return exp(-(nu - mu) * (nu - mu) / (2.0 * v)) / sqrt(2.0 * PI * v) *
+	return exp(-(nu - mu) * (nu - mu) / (2.0 * v)) / sqrt(TWO_PI * v) *
 	       textbook_airy((double)s.c, 1.0, (double)s.film, (double)s.d, (double)s.n[p->channel],
 			     (double)s.k[p->channel], 1.0 / nu);
 }
@@ -379,7 +378,7 @@ static void test_what_everybody_has_seen(void)
 	TEST_ASSERT_TRUE(coated.reflectance.r < bare && coated.reflectance.g < 0.5f * bare);
 }
 
-/* --- the lobes --------------------------------------------------------------------------------------------------- */
+/* --- the lobes ---------------------------------------------------------------------------------------------------- */
 
 /* At thickness 0 the lobes are those without a film. */
 static void test_lobes_without_film(void)

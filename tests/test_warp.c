@@ -11,7 +11,6 @@
 #include <stdio.h>
 
 #define U     0x1p-24 /* half an ulp of 1: what one rounding takes at most, relative to the result */
-#define PI    3.14159265358979323846
 #define CASES 500000u
 
 void setUp(void) { measured_reset(); }
@@ -249,15 +248,15 @@ static double warp_p_value(const warp *m, density f, uint32_t stream)
 	static double probability[BINS];
 	const double range = 1.0 - m->top;
 	for (int i = 0; i < CELLS; i++) {
-		const double z = m->top + range * (i / PHI_BINS) / Z_BINS, phi = 2.0 * PI * (i % PHI_BINS) / PHI_BINS;
+		const double z = m->top + range * (i / PHI_BINS) / Z_BINS, phi = TWO_PI * (i % PHI_BINS) / PHI_BINS;
 		count[i] = 0;
-		probability[i] = integrate(f, m, z, z + range / Z_BINS, phi, phi + 2.0 * PI / PHI_BINS, 4);
+		probability[i] = integrate(f, m, z, z + range / Z_BINS, phi, phi + TWO_PI / PHI_BINS, 4);
 	}
 	for (uint64_t i = 0; i < SAMPLES; i++) {
 		float u[3];
 		test_u3(stream, i, u);
 		const lobe_vec3 w = m->map(lobe_vec2_make(u[0], u[1]), m->height);
-		double turns = atan2((double)w.y, (double)w.x) / (2.0 * PI);
+		double turns = atan2((double)w.y, (double)w.x) / TWO_PI;
 		turns -= floor(turns);
 		int z = (int)(((double)w.z - m->top) / range * Z_BINS), phi = (int)(turns * PHI_BINS);
 		/* Rounding may put z on the edge or an ulp beyond it. */
@@ -301,7 +300,7 @@ static void test_disk_chi_square(void)
 		float u[3];
 		test_u3(9, i, u);
 		const lobe_vec2 d = lobe_concentric_disk(lobe_vec2_make(u[0], u[1]));
-		double turns = atan2((double)d.y, (double)d.x) / (2.0 * PI);
+		double turns = atan2((double)d.y, (double)d.x) / TWO_PI;
 		turns -= floor(turns);
 		int r = (int)(radius(d) * Z_BINS), phi = (int)(turns * PHI_BINS);
 		r = r >= Z_BINS ? Z_BINS - 1 : r;
@@ -322,24 +321,23 @@ static void test_densities_integrate_to_one(void)
 	 * z). */
 	for (size_t k = 0; k < WARPS; k++) {
 		const warp *m = &warps[k];
-		double total = integrate(density_of_header, m, m->top, 1.0, 0.0, 2.0 * PI, 16);
+		double total = integrate(density_of_header, m, m->top, 1.0, 0.0, TWO_PI, 16);
 		/* Below the horizon the density of a hemisphere is 0. */
 		if (m->pdf != pdf_cap)
-			total += integrate(density_of_header, m, -1.0, -0x1p-20, 0.0, 2.0 * PI, 16);
+			total += integrate(density_of_header, m, -1.0, -0x1p-20, 0.0, TWO_PI, 16);
 		char what[80];
 		snprintf(what, sizeof what, "%s: |integral of pdf - 1|", m->name);
 		measured(what, fabs(total - 1.0), 4.0 * U);
 	}
 	measured("disk: |integral of pdf - 1|", fabs((double)lobe_concentric_disk_pdf() * PI - 1.0), U);
 	for (size_t k = 0; k < HEIGHTS; k++) {
-		const double area = 2.0 * PI * (double)heights[k];
+		const double area = TWO_PI * (double)heights[k];
 		measured("cap: |pdf times area - 1|", fabs((double)lobe_spherical_cap_pdf(heights[k]) * area - 1.0),
 			 3.0 * U);
 	}
 }
 
-/* --- inverses -------------------------------------------------------------------------------------------------------
- */
+/* --- inverses ----------------------------------------------------------------------------------------------------- */
 
 static int in_square(lobe_vec2 u) { return u.x >= 0.0f && u.x < 1.0f && u.y >= 0.0f && u.y < 1.0f; }
 
@@ -379,7 +377,7 @@ static void test_disk_map_of_inverse(void)
 	for (uint64_t i = 0; i < CASES; i++) {
 		const double r =
 			i % 8 ? sqrt((double)test_uniform(20, i)) : pow(10.0, -8.0 * (double)test_uniform(20, i));
-		const double phi = 2.0 * PI * (double)test_uniform(21, i);
+		const double phi = TWO_PI * (double)test_uniform(21, i);
 		const lobe_vec2 d = lobe_vec2_make((float)(r * cos(phi)), (float)(r * sin(phi)));
 		const lobe_vec2 e = lobe_concentric_disk(lobe_concentric_disk_inverse(d));
 		worst = larger(worst, larger(fabs((double)(e.x - d.x)), fabs((double)(e.y - d.y))));
@@ -447,7 +445,7 @@ static void test_cap_map_of_inverse(void)
 	}
 	/* h is off by 7 U relative above the equator, z by at most that; x and y by half of it and by 2 pi times
 	 * the 3.8 U of u.x. Below it h is off by 2 U absolute: U/s in x and y. */
-	measured("sphere: |map(inverse(w)) - w| in x, y (times s below)", worst, (3.5 + 2.0 * PI * 3.8 + 4.5) * U);
+	measured("sphere: |map(inverse(w)) - w| in x, y (times s below)", worst, (3.5 + TWO_PI * 3.8 + 4.5) * U);
 	measured("sphere: |map(inverse(w)) - w| in z", worst_z, 9.0 * U);
 }
 

@@ -1,9 +1,9 @@
 #include "textbook.h"
 
+#include "support.h"
+
 #include <complex.h>
 #include <math.h>
-
-#define PI 3.14159265358979323846
 
 double textbook_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -112,7 +112,8 @@ double textbook_airy(double c, double n0, double nf, double d, double n, double 
 	return sum;
 }
 
-double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3], const double wi[3])
+double textbook_rough_metal(textbook_ndf ndf, double ax, double ay, double n, double k, const double wo[3],
+			    const double wi[3])
 {
 	double h[3];
 	for (int i = 0; i < 3; i++)

@@ -1,0 +1,25 @@
+/* directions.h - test directions as the library takes them, rounded from double. */
+#ifndef LOBE_TESTS_DIRECTIONS_H
+#define LOBE_TESTS_DIRECTIONS_H
+
+#include <math.h>
+
+#include "lobe/core/vec.h"
+#include "support.h"
+
+/* The direction whose cosine to the normal is z, at azimuth phi. */
+static inline lobe_vec3 direction_at(double z, double phi)
+{
+	const double s = sqrt((1.0 - z) * (1.0 + z));
+	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
+}
+
+/* test_direction as a vector. */
+static inline lobe_vec3 random_direction(uint32_t stream, uint64_t i)
+{
+	float w[3];
+	test_direction(stream, i, w);
+	return lobe_vec3_make(w[0], w[1], w[2]);
+}
+
+#endif
