@@ -1,5 +1,5 @@
-/* microsurface_cases.h - microsurfaces chosen at run time, and integrals over their facets, for test_masking.c and
- * test_strategies.c. */
+/* microsurface_cases.h - microsurfaces chosen at run time, and integrals over their facets, for tests of masking and
+ * of strategies. */
 #ifndef LOBE_TESTS_MICROSURFACE_CASES_H
 #define LOBE_TESTS_MICROSURFACE_CASES_H
 
@@ -38,6 +38,27 @@ static inline lobe_distribution shape_make(const shape_case *c)
 	d.norm = (lobe_real)t.norm;
 	d.table = lobe_table_at(t.table);
 	return d;
+}
+
+static inline lobe_linear stretch(double ax, double ay)
+{
+	return lobe_linear_make((float)ax, 0.0f, 0.0f, (float)ay, 0.0f, 0.0f);
+}
+
+static inline lobe_microsurface ggx(double alpha)
+{
+	return lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), stretch(alpha, alpha));
+}
+
+/* The facet h, of any length, as o and i see it. */
+static inline lobe_seen_facet seen_facet(lobe_vec3 o, lobe_vec3 i, lobe_vec3 h)
+{
+	lobe_seen_facet m;
+	m.o = lobe_dot(o, h);
+	m.i = lobe_dot(i, h);
+	m.z = h.z;
+	m.length2 = lobe_dot(h, h);
+	return m;
 }
 
 /* (x, y) of the unit square as the facet of the mapped surface whose slopes are those of the GGX surface of the same

@@ -19,11 +19,6 @@ static const char *const names[] = {"visible",   "uniform", "cosine",  "ndf",   
 				    "ellipsoid", "cap",     "bounded", "v-cavity", "hemisphere"};
 enum { STRATEGIES = LOBE_STRATEGY_LAST + 1 };
 
-static lobe_linear stretch(double ax, double ay)
-{
-	return lobe_linear_make((float)ax, 0.0f, 0.0f, (float)ay, 0.0f, 0.0f);
-}
-
 static lobe_microfacet_conductor mirror(lobe_microsurface s, lobe_uint strategy)
 {
 	const lobe_rgb white = lobe_rgb_make(1.0f, 1.0f, 1.0f);
