@@ -3,23 +3,20 @@
  *
  * PoCL is given an empty cache of its own, so that what is found is what lobe kept. */
 #define _XOPEN_SOURCE 700
-#include <dirent.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "opencl_cache.h"
+#include "cache_folder.h"
 #include "inputs.h"
 #include "lobe/lobe.h"
 #include "opencl_api.h"
 #include "unity.h"
 
-enum { N = 1003, PATH = 512 };
+enum { N = 1003 };
 
 static lobe_cl_functions real, *table;
 static int sources, binaries, refused;   /* programs made from each, and built; binaries that a build refused */
@@ -28,7 +25,7 @@ static cl_program from_binary;
 static const char *other_driver; /* pretend that the driver has this version */
 static inputs in;
 static float out[4][N], expected[4][N];
-static char folder[PATH], home[PATH];
+static char home[PATH];
 
 static cl_program count_binary(cl_context c, cl_uint n, const cl_device_id *d, const size_t *l, const unsigned char **b,
 			       cl_int *s, cl_int *e)
@@ -67,8 +64,8 @@ static cl_int pretend_driver(cl_device_id d, cl_uint what, size_t n, void *value
 /* Evaluates on a device opened anew; the counts are those of this call. */
 static lobe_status shade_on(const char *name, float alpha)
 {
-	const lobe_bsdf iron = lobe_bsdf_from_ggx_conductor(lobe_ggx_conductor_make(
-		alpha, 0.3f, lobe_metal_eta(LOBE_METAL_IRON), lobe_metal_k(LOBE_METAL_IRON)));
+	const lobe_bsdf iron = lobe_bsdf_from_ggx_conductor(
+		lobe_ggx_conductor_make(alpha, 0.3f, lobe_metal_eta(LOBE_METAL_IRON), lobe_metal_k(LOBE_METAL_IRON)));
 	lobe_device *device;
 	lobe_scene *scene;
 	lobe_batch b;
@@ -114,57 +111,6 @@ static void assert_warm(void)
 	TEST_ASSERT_EQUAL_MESSAGE(1, binaries, "built from the cache");
 }
 
-/* --- the folder ------------------------------------------------------------------------------------------------------ */
-
-/* Files in the folder; the path of the last in path. */
-static int files(char *path)
-{
-	const struct dirent *e;
-	int n = 0;
-	DIR *const d = opendir(folder);
-	while (d && (e = readdir(d)) != NULL)
-		if (e->d_name[0] != '.') {
-			n++;
-			if (path)
-				snprintf(path, PATH, "%.200s/%.200s", folder, e->d_name);
-		}
-	if (d)
-		closedir(d);
-	return n;
-}
-
-static void empty_folder(void)
-{
-	char path[PATH];
-	while (files(path))
-		TEST_ASSERT_EQUAL(0, remove(path));
-}
-
-static unsigned char *content;
-static size_t content_size;
-
-static void read_file(const char *path)
-{
-	struct stat s;
-	FILE *const f = fopen(path, "rb");
-	TEST_ASSERT_NOT_NULL(f);
-	TEST_ASSERT_EQUAL(0, fstat(fileno(f), &s));
-	free(content);
-	content_size = (size_t)s.st_size;
-	content = malloc(content_size);
-	TEST_ASSERT_NOT_NULL(content);
-	TEST_ASSERT_EQUAL(content_size, fread(content, 1, content_size, f));
-	fclose(f);
-}
-
-static void write_file(const char *path, const void *data, size_t size)
-{
-	FILE *const f = fopen(path, "wb");
-	TEST_ASSERT_NOT_NULL(f);
-	TEST_ASSERT_EQUAL(size, fwrite(data, 1, size, f));
-	fclose(f);
-}
-
 void setUp(void)
 {
 	refuse_binary = refuse_create = 0;
@@ -173,7 +119,7 @@ void setUp(void)
 }
 void tearDown(void) {}
 
-/* --- programs -------------------------------------------------------------------------------------------------------- */
+/* --- programs ----------------------------------------------------------------------------------------------------- */
 
 static void needs_opencl(void)
 {
@@ -300,174 +246,6 @@ static void test_default_folder(void)
 	TEST_ASSERT_EQUAL(strcmp(name, "Portable Computing Language") ? 0 : -1, access(path, F_OK));
 }
 
-/* --- files ----------------------------------------------------------------------------------------------------------- */
-
-static const char key[] = "what it was made from", other[] = "what it was not made from";
-static const char data[] = "what was made";
-
-static int found(const char *k)
-{
-	size_t size = 0;
-	void *const got = lobe_cl_cache_get(k, strlen(k), &size);
-	const int right = got && size == sizeof data && memcmp(got, data, size) == 0;
-	TEST_ASSERT_TRUE_MESSAGE(right || !got, "something that was not put there");
-	free(got);
-	return right;
-}
-
-static void put_one(char *path)
-{
-	empty_folder();
-	lobe_cl_cache_put(key, strlen(key), data, sizeof data);
-	TEST_ASSERT_EQUAL(1, files(path));
-	TEST_ASSERT_TRUE(found(key));
-}
-
-/* Cut off after any byte, with any bit turned, or followed by one byte more, it is not there. */
-static void test_every_damage(void)
-{
-	char path[PATH];
-	put_one(path);
-	read_file(path);
-	for (size_t n = 0; n < content_size; n++) {
-		write_file(path, content, n);
-		TEST_ASSERT_FALSE(found(key));
-		for (int bit = 0; bit < 8; bit++) {
-			content[n] ^= (unsigned char)(1 << bit);
-			write_file(path, content, content_size);
-			TEST_ASSERT_FALSE(found(key));
-			content[n] ^= (unsigned char)(1 << bit);
-		}
-	}
-	unsigned char longer[1024] = {0};
-	memcpy(longer, content, content_size);
-	write_file(path, longer, content_size + 1);
-	TEST_ASSERT_FALSE(found(key));
-	write_file(path, content, content_size);
-	TEST_ASSERT_TRUE(found(key));
-}
-
-/* The right name and a sound file, but of another key: what a collision of hashes would give. */
-static void test_foreign_key(void)
-{
-	char mine[PATH], path[PATH];
-	put_one(mine);
-	empty_folder();
-	lobe_cl_cache_put(other, strlen(other), data, sizeof data);
-	TEST_ASSERT_EQUAL(1, files(path));
-	TEST_ASSERT_TRUE(found(other));
-	TEST_ASSERT_FALSE(found(key));
-	TEST_ASSERT_EQUAL(0, rename(path, mine));
-	TEST_ASSERT_FALSE(found(key));
-}
-
-/* A file that another user could have written, a link, a folder, a pipe. */
-static void test_strange_files(void)
-{
-	char path[PATH], aside[PATH + 8];
-	put_one(path);
-	TEST_ASSERT_EQUAL(0, chmod(path, 0620));
-	TEST_ASSERT_FALSE(found(key));
-	TEST_ASSERT_EQUAL(0, chmod(path, 0600));
-	if (geteuid() == 0) {
-		TEST_ASSERT_EQUAL(0, chown(path, 65534, 65534));
-		TEST_ASSERT_FALSE(found(key));
-		TEST_ASSERT_EQUAL(0, chown(path, 0, 0));
-	}
-	TEST_ASSERT_TRUE(found(key));
-	snprintf(aside, sizeof aside, "%s.aside", path);
-	TEST_ASSERT_EQUAL(0, rename(path, aside));
-	TEST_ASSERT_EQUAL(0, symlink(aside, path));
-	TEST_ASSERT_FALSE(found(key));
-	TEST_ASSERT_EQUAL(0, remove(path));
-	TEST_ASSERT_EQUAL(0, mkfifo(path, 0600));
-	TEST_ASSERT_FALSE(found(key));
-	TEST_ASSERT_EQUAL(0, remove(path));
-	TEST_ASSERT_EQUAL(0, mkdir(path, 0700));
-	TEST_ASSERT_FALSE(found(key));
-	lobe_cl_cache_put(key, strlen(key), data, sizeof data); /* cannot replace a folder */
-	TEST_ASSERT_FALSE(found(key));
-	TEST_ASSERT_EQUAL(0, remove(path));
-	TEST_ASSERT_EQUAL(0, remove(aside));
-	TEST_ASSERT_EQUAL_MESSAGE(0, files(NULL), "a temporary file is left");
-}
-
-/* Ten files of 10 MB: the bound of 64 MiB leaves the six that were used last. */
-static void test_bound(void)
-{
-	enum { SIZE = 10000000 };
-	char *const big = calloc(SIZE, 1);
-	char name[2] = "0", path[PATH], left[PATH + 64];
-	size_t size;
-	TEST_ASSERT_NOT_NULL(big);
-	empty_folder();
-	/* What a writer left that was killed yesterday, and one that writes now. */
-	for (int i = 0; i < 2; i++) {
-		const struct timespec old[2] = {{time(NULL) - (i ? 0 : 86400), 0}, {time(NULL) - (i ? 0 : 86400), 0}};
-		snprintf(left, sizeof left, "%s/%d.part", folder, i);
-		write_file(left, "x", 1);
-		TEST_ASSERT_EQUAL(0, utimensat(AT_FDCWD, left, old, 0));
-	}
-	for (int i = 0; i < 10; i++) {
-		const struct timespec moment = {0, 20000000}; /* file times have the grain of the kernel's clock */
-		name[0] = (char)('0' + i);
-		lobe_cl_cache_put(name, 1, big, SIZE);
-		nanosleep(&moment, NULL);
-		free(lobe_cl_cache_get("1", 1, &size)); /* file 1 stays in use */
-		nanosleep(&moment, NULL);
-	}
-	free(big);
-	for (int i = 0; i < 10; i++) {
-		name[0] = (char)('0' + i);
-		void *const got = lobe_cl_cache_get(name, 1, &size);
-		TEST_ASSERT_EQUAL_MESSAGE(i == 1 || i >= 5, got != NULL, name);
-		free(got);
-	}
-	TEST_ASSERT_EQUAL(6 + 1, files(NULL));
-	TEST_ASSERT_EQUAL(0, access(left, F_OK));
-	TEST_ASSERT_EQUAL(0, remove(left));
-	empty_folder();
-	(void)path;
-}
-
-/* A folder that cannot be written can be read. As root, which may write anywhere, only the reading is tested. */
-static void test_read_only_folder(void)
-{
-	char path[PATH];
-	put_one(path);
-	TEST_ASSERT_EQUAL(0, chmod(folder, 0500));
-	TEST_ASSERT_TRUE(found(key));
-	lobe_cl_cache_put(other, strlen(other), data, sizeof data);
-	TEST_ASSERT_EQUAL(geteuid() == 0, found(other));
-	TEST_ASSERT_EQUAL(0, chmod(folder, 0700));
-	empty_folder();
-}
-
-/* LOBE_CACHE_DIR, else XDG_CACHE_HOME, else HOME; folders are made, for their user alone. */
-static void test_where(void)
-{
-	static const char *const below[] = {"a/b", "c/lobe", "d/.cache/lobe"};
-	char path[PATH + 64];
-	struct stat s;
-	for (int i = 0; i < 3; i++) {
-		snprintf(path, sizeof path, "%s/%c%s", home, "acd"[i], i ? "" : "/b");
-		unsetenv("LOBE_CACHE_DIR");
-		setenv("XDG_CACHE_HOME", "no/absolute/path", 1);
-		setenv(i == 0 ? "LOBE_CACHE_DIR" : (i == 1 ? "XDG_CACHE_HOME" : "HOME"), path, 1);
-		TEST_ASSERT_EQUAL(i == 0, lobe_cl_cache_asked_for());
-		TEST_ASSERT_FALSE(found(key));
-		lobe_cl_cache_put(key, strlen(key), data, sizeof data);
-		TEST_ASSERT_TRUE(found(key));
-		snprintf(path, sizeof path, "%s/%s", home, below[i]);
-		TEST_ASSERT_EQUAL_MESSAGE(0, stat(path, &s), path);
-		TEST_ASSERT_EQUAL_HEX(0700, s.st_mode & 0777);
-	}
-	setenv("HOME", home, 1);
-	setenv("XDG_CACHE_HOME", home, 1);
-}
-
-/* ---------------------------------------------------------------------------------------------------------------------- */
-
 static void install(void)
 {
 	size_t count = 0;
@@ -483,17 +261,6 @@ static void install(void)
 	table->clCreateProgramWithBinary = count_binary;
 	table->clBuildProgram = count_build;
 	table->clGetDeviceInfo = pretend_driver;
-}
-
-static void remove_all(const char *path)
-{
-	char *const arguments[] = {"rm", "-rf", (char *)(uintptr_t)path, NULL};
-	const pid_t child = fork();
-	if (child == 0) {
-		execvp("rm", arguments);
-		_exit(127);
-	}
-	waitpid(child, NULL, 0);
 }
 
 int main(int argc, char **argv)
@@ -524,13 +291,6 @@ int main(int argc, char **argv)
 		RUN_TEST(test_two_processes);
 		RUN_TEST(test_no_folder);
 		RUN_TEST(test_default_folder);
-		mkdir(folder, 0700);
-		RUN_TEST(test_every_damage);
-		RUN_TEST(test_foreign_key);
-		RUN_TEST(test_strange_files);
-		RUN_TEST(test_bound);
-		RUN_TEST(test_read_only_folder);
-		RUN_TEST(test_where);
 	}
 	inputs_free(in);
 	free(content);
