@@ -227,7 +227,7 @@ $(B)/tests/double_distributions.o: private TEST_CFLAGS += -DLOBE_DOUBLE=1
 # Millions of evaluations: with lobe_fma as one instruction where the processor has it, which gives the same bits in a third
 # of the time. As a user's program is by default, with lobe_fma in double: the tests of it and of known answers,
 # the scalar functions of test_equivalence, and the materials of all.
-TEST_PLAIN := test_real test_core test_vectors scalar cases
+TEST_PLAIN := test_real test_core test_fma test_vectors scalar cases
 TEST_NATIVE := $(NATIVE)
 $(patsubst %,$(B)/tests/%.o,$(TEST_PLAIN)): private TEST_NATIVE :=
 $(B)/tests/%.o: tests/%.c $(HEADERS) $(TEST_HEADERS) | $(B)/tests

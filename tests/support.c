@@ -40,6 +40,13 @@ uint32_t test_float_bits(float x)
 	return b;
 }
 
+float test_float_of_bits(uint32_t bits)
+{
+	float x;
+	memcpy(&x, &bits, sizeof x);
+	return x;
+}
+
 double test_ulp(float a, double exact)
 {
 	int e;

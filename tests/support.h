@@ -20,8 +20,9 @@ void test_u3(uint32_t stream, uint64_t i, float u[3]);
 /* A unit vector uniform on the sphere, from numbers 2i and 2i + 1 of stream, rounded from double. */
 void test_direction(uint32_t stream, uint64_t i, float w[3]);
 
-/* The 4 bytes of x as a number. */
+/* The 4 bytes of x as a number, and back. */
 uint32_t test_float_bits(float x);
+float test_float_of_bits(uint32_t bits);
 
 /* |a - exact| in units of the last place of exact as a float (at least 2^-149). */
 double test_ulp(float a, double exact);
