@@ -14,6 +14,13 @@ static inline lobe_vec3 direction_at(double z, double phi)
 	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)z);
 }
 
+/* The direction of length `length` whose cotangent to the normal is c. */
+static inline lobe_vec3 at_cotangent(double c, double phi, double length)
+{
+	const double s = length / sqrt(1.0 + c * c);
+	return lobe_vec3_make((float)(s * cos(phi)), (float)(s * sin(phi)), (float)(c * s));
+}
+
 /* test_direction as a vector. */
 static inline lobe_vec3 random_direction(uint32_t stream, uint64_t i)
 {
