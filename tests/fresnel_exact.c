@@ -67,6 +67,18 @@ float cosine(int i)
 	return 1.0f;
 }
 
+float index_of(int i)
+{
+	if (i < 200)
+		return (float)pow(10.0, 3.0 * (i - 100) / 100.0);
+	if (i < 225)
+		return (float)(1.0 + ldexp(1.0, -(i - 200 + 1) > -23 ? -(i - 200 + 1) : -23));
+	if (i < 250)
+		return (float)(1.0 - ldexp(1.0, -(i - 225 + 1) > -24 ? -(i - 225 + 1) : -24));
+	const float common[] = {1.0f, 1.33f, 1.5f, 1.0f / 1.33f, 1.0f / 1.5f, 2.42f, 4.0f, 0.25f, 0.001f, 1000.0f};
+	return common[i - 250];
+}
+
 void keep_worst(worst *w, double value, float c, float eta)
 {
 	/* Not <=, so that a NaN is kept. */

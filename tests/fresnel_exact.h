@@ -1,4 +1,5 @@
-/* fresnel_exact.h - Fresnel's formulas by MPFR, the angles at which tests ask, and where the worst of them is. */
+/* fresnel_exact.h - Fresnel's formulas by MPFR, the angles and indices at which tests ask, and where the worst of them
+ * is. */
 #ifndef LOBE_TESTS_FRESNEL_EXACT_H
 #define LOBE_TESTS_FRESNEL_EXACT_H
 
@@ -17,6 +18,10 @@ exact_fresnel exact_dielectric(float c, float eta);
 /* Cosine number i < COSINES: from 1e-7 to 1, by powers, by equal steps, and close to 1. */
 enum { COSINES = 600 };
 float cosine(int i);
+
+/* Index number i < INDICES: from 1/1000 to 1000, 1 +- 2^-k, 1. */
+enum { INDICES = 260 };
+float index_of(int i);
 
 /* A maximum and the arguments where it was found. */
 typedef struct {

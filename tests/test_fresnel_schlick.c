@@ -5,6 +5,7 @@
 #include "lobe/core/fresnel_schlick.h"
 #include "lobe/core/optics.h"
 
+#include "fresnel_exact.h"
 #include "measured.h"
 #include "support.h"
 #include "textbook.h"
@@ -12,8 +13,6 @@
 
 #include <math.h>
 #include <stdio.h>
-
-#define U 0x1p-24
 
 void setUp(void) { measured_reset(); }
 void tearDown(void) { TEST_ASSERT_TRUE_MESSAGE(!measured_outside()[0], measured_outside()); }
@@ -36,18 +35,18 @@ static double f82_tint(double c, double f0, double tint)
 	return fmin(fmax(schlick(c, f0) - b * c * power(1.0 - c, 6), 0.0), 1.0);
 }
 
-/* --- how far from the exact ones -------------------------------------------------------------------------------- */
+/* --- how far from the exact ones ---------------------------------------------------------------------------------- */
 
 static double schlick_distance(double eta)
 {
 	const double root = (eta - 1.0) / (eta + 1.0);
-	double worst = 0.0;
+	double most = 0.0;
 	for (int i = 0; i <= 20000; i++) {
 		const double c = (double)(float)(i * 5e-5);
-		worst = larger(worst, fabs((double)lobe_fresnel_schlick((float)c, (float)(root * root)) -
-					   textbook_fresnel(fmax(c, 1e-12), eta)));
+		most = larger(most, fabs((double)lobe_fresnel_schlick((float)c, (float)(root * root)) -
+					 textbook_fresnel(fmax(c, 1e-12), eta)));
 	}
-	return worst;
+	return most;
 }
 
 /* Published distances, each to its last digit. */
@@ -64,6 +63,34 @@ static void test_schlick_table(void)
 			 table[i][1]);
 		measured(what, fabs(d - table[i][1]), 0.5 * table[i][2]);
 	}
+}
+
+static void check_schlick(float eta, double expected, double digit)
+{
+	const float root = (eta - 1.0f) / (eta + 1.0f);
+	worst w = {0};
+	for (int i = 0; i <= 100000; i++) {
+		const float c = (float)i * 1e-5f;
+		const double error =
+			fabs((double)lobe_fresnel_schlick(c, root * root) - exact_dielectric(c, eta).reflectance);
+		keep_worst(&w, error, c, eta);
+	}
+	char what[80];
+	snprintf(what, sizeof what, "Schlick: largest error %.5f (published %g), off by", w.value, expected);
+	w.value = fabs(w.value - expected);
+	/* Half of the last digit that was published. */
+	measured_at(what, w, 0.5 * digit);
+}
+
+static void test_schlick(void)
+{
+	check_schlick(1.33f, 0.060, 0.001);
+	check_schlick(1.5f, 0.0357, 0.0001);
+	check_schlick(4.0f, 0.201, 0.001);
+	TEST_ASSERT_TRUE(lobe_fresnel_schlick(1.0f, 0.04f) == 0.04f);
+	TEST_ASSERT_TRUE(lobe_fresnel_schlick(0.0f, 0.04f) == 1.0f);
+	const lobe_rgb f = lobe_fresnel_schlick_rgb(0.5f, lobe_rgb_make(0.0f, 0.5f, 1.0f));
+	TEST_ASSERT_TRUE(f.r == 0.03125f && f.g == 0.515625f && f.b == 1.0f);
 }
 
 /* Metal m, channel ch: largest distance of Schlick and of F82 (fitted at 1/7, as users do) from the exact conductor. */
@@ -120,7 +147,7 @@ static void test_f82_table(void)
 	TEST_ASSERT_TRUE(worst_plain > 4.0 * worst_dipped);
 }
 
-/* --- definitions ------------------------------------------------------------------------------------------------ */
+/* --- definitions -------------------------------------------------------------------------------------------------- */
 
 /* Roundings of a sum of at most three terms of size up to 1 and of a power of 1 - c: 16 U, absolute. */
 static void test_curves_are_their_definitions(void)
@@ -188,7 +215,7 @@ static void test_rgb_forms_are_the_scalar_ones(void)
 	measured("rgb forms that differ from the scalar ones", differ, 0.0);
 }
 
-/* --- Gulbrandsen ------------------------------------------------------------------------------------------------ */
+/* --- Gulbrandsen -------------------------------------------------------------------------------------------------- */
 
 static double f0_of(double n, double k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); }
 
@@ -257,7 +284,7 @@ static void test_artist_edges(void)
 /* The bound on k means something: as the paper prints it, in float, the difference cancels. */
 static void test_artist_planted(void)
 {
-	double worst = 0.0;
+	double most = 0.0;
 	for (uint32_t i = 0; i < 20000u; i++) {
 		const float r = 0.5f + 0.4f * test_uniform(22, i), g = 0.01f + 0.01f * test_uniform(23, i),
 			    s = sqrtf(r);
@@ -265,16 +292,17 @@ static void test_artist_planted(void)
 		const float k2 = (r * (x + 1.0f) * (x + 1.0f) - (x - 1.0f) * (x - 1.0f)) / (1.0f - r);
 		double n, k;
 		printed((double)r, (double)g, &n, &k);
-		worst = larger(worst, fabs(sqrt(fmax(0.0, (double)k2)) - k) / k);
+		most = larger(most, fabs(sqrt(fmax(0.0, (double)k2)) - k) / k);
 	}
-	printf("  %-60s %11.4g\n", "artist as printed, in float: k relative", worst);
-	TEST_ASSERT_TRUE(worst > 16.0 * U);
+	printf("  %-60s %11.4g\n", "artist as printed, in float: k relative", most);
+	TEST_ASSERT_TRUE(most > 16.0 * U);
 }
 
 int main(void)
 {
 	UNITY_BEGIN();
 	RUN_TEST(test_schlick_table);
+	RUN_TEST(test_schlick);
 	RUN_TEST(test_f82_table);
 	RUN_TEST(test_curves_are_their_definitions);
 	RUN_TEST(test_rgb_forms_are_the_scalar_ones);
