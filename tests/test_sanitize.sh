@@ -32,7 +32,8 @@ clean() {
 }
 
 for program in test_batch test_strides test_async test_vectors test_opencl test_opencl_none test_opencl_faults test_opencl_cache \
-	test_opencl_all test_fallback test_core test_real test_warp test_fresnel test_fresnel_conductor test_ggx test_linear test_slopes test_lobes_extremes; do
+	test_opencl_cache_files test_opencl_all test_fallback test_core test_fma test_real test_warp test_fresnel test_fresnel_schlick \
+	test_fresnel_conductor test_refract test_ggx test_ggx_visible test_linear test_smith_leadr test_slopes test_lobes_extremes; do
 	check "$program builds" sanitized $program
 	check "$program runs clean" clean $program
 done
