@@ -68,7 +68,6 @@ LOBE_NATIVE ?= 1
 # Whose objects depend on nothing that such builds differ in, so that they can share them.
 ROW_DIR ?= $(B)/obj
 ROW_FLAGS := $(if $(filter $(B)/obj,$(ROW_DIR)),$(B)/obj/flags)
-FLAGS_OF_ALL = $(CC) $(LIB_CFLAGS) $(ROW_CFLAGS)
 
 NATIVE_SOURCES := $(filter-out src/native_split.c,$(wildcard src/native*.c))
 OPENCL_SOURCES := $(wildcard src/opencl*.c)
@@ -100,8 +99,9 @@ $(sort $(B)/obj $(ROW_DIR)) $(B)/gen $(B)/tests $(B)/bench:
 	@mkdir -p $@
 
 # Changes when the compiler or its options do, so that what they gave before is compiled anew.
-$(B)/obj/flags: FORCE | $(B)/obj
-	@echo '$(FLAGS_OF_ALL)' | cmp -s - $@ || echo '$(FLAGS_OF_ALL)' > $@
+FLAGS_OF_ALL := $(CC) $(LIB_CFLAGS) $(ROW_CFLAGS)
+$(B)/obj/flags: $(shell echo '$(FLAGS_OF_ALL)' | cmp -s - $(B)/obj/flags 2>/dev/null || echo FORCE) | $(B)/obj
+	@echo '$(FLAGS_OF_ALL)' > $@
 
 $(B)/obj/%.o: src/%.c $(HEADERS) $(B)/obj/flags | $(B)/obj
 	@echo "  cc    $@"

@@ -65,8 +65,10 @@ static void check_sample(const test_case *c, lobe_vec3 wo, lobe_vec3 u, tally *t
 		return;
 	}
 	const lobe_real pdf = lobe_bsdf_pdf(c->bsdf, wo, s.wi);
+	const lobe_rgb f = lobe_bsdf_eval(c->bsdf, wo, s.wi);
+	const lobe_bsdf_value both = lobe_bsdf_eval_pdf(c->bsdf, wo, s.wi);
+	t->pdf_differs += memcmp(&both.f, &f, sizeof f) != 0 || test_float_bits(both.pdf) != test_float_bits(pdf);
 	if (s.event & LOBE_EVENT_DELTA) {
-		const lobe_rgb f = lobe_bsdf_eval(c->bsdf, wo, s.wi);
 		t->deltas++;
 		t->pdf_differs +=
 			pdf != 0.0f || f.r != 0.0f || f.g != 0.0f || f.b != 0.0f || !(s.pdf > 0.0f && s.pdf <= 1.0f);

@@ -330,6 +330,26 @@ static void test_extremes_have_an_answer(void)
 	TEST_ASSERT_EQUAL_FLOAT(0.0f, r.deviation);
 }
 
+/* And where there is none to be had it says so. */
+static void test_no_answer(void)
+{
+	const lobe_recommend_cost cost = lobe_recommend_cost_samples();
+	const lobe_light_shape sky = lobe_light_shape_sky(0.0f);
+	const lobe_vec3 wo = direction_at(0.5, 0.0);
+	const lobe_microsurface s =
+		lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), lobe_linear_stretch(0.3f, 0.3f));
+	lobe_microsurface no_surface = s;
+	lobe_light_shape none = lobe_light_shape_disk(wo, 0.0f, 1.0f);
+	no_surface.map.xx = NAN;
+	TEST_ASSERT_TRUE(lobe_recommend_strategy(s, wo, sky, cost).deviation > 0.0f);
+	TEST_ASSERT_TRUE(lobe_recommend_strategy(no_surface, wo, sky, cost).deviation == -1.0f);
+	TEST_ASSERT_TRUE(lobe_recommend_strategy(s, wo, none, cost).deviation == -1.0f);
+	none = sky;
+	none.slope = NAN;
+	TEST_ASSERT_TRUE(lobe_recommend_strategy(s, wo, none, cost).deviation == -1.0f);
+	TEST_ASSERT_TRUE(lobe_recommend_strategy(s, lobe_vec3_make(NAN, 0.0f, 0.8f), sky, cost).deviation == -1.0f);
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
@@ -337,5 +357,6 @@ int main(void)
 	RUN_TEST(test_a_light_that_is_asked_itself);
 	RUN_TEST(test_cost_decides);
 	RUN_TEST(test_extremes_have_an_answer);
+	RUN_TEST(test_no_answer);
 	return UNITY_END() != 0;
 }

@@ -407,11 +407,11 @@ static void test_bad_input(void)
 	WITH(m.texel_x = (double)NAN, "map.texel_x");
 	WITH(m.texel_y = (double)INFINITY, "map.texel_y");
 	WITH(m.edge = (lobe_slope_edge)2, "map.edge");
-	WITH(m.texel_x = 1e-320, "finite slope");
+	WITH(m.texel_x = 1e-320, "the slope at column 0, row 0 is too steep");
 	texels[8 * 5 + 3] = NAN;
-	refused(&good, "row 4"); /* the first difference that looks at it */
+	refused(&good, "the height at column 3, row 5 is nan");
 	texels[8 * 5 + 3] = INFINITY;
-	refused(&good, "finite slope");
+	refused(&good, "the height at column 3, row 5 is inf");
 	m = good;
 	m.width = m.height = 1;
 	texels[0] = NAN;

@@ -58,13 +58,13 @@ for compiler in gcc clang; do
 		continue
 	fi
 	# The default compiler's objects are those of the library; the other's those of test_same_bits.sh.
-	dir=build
-	[ $compiler = $default ] || dir=$builds/$compiler-O2
+	dir=build options=CC=$CC
+	[ $compiler = $default ] || dir=$builds/$compiler-O2 options="CC=$compiler CFLAGS=-O2 ROW_OPT=-O3"
 	objects=$(for isa in baseline avx2 avx512; do for lobe in $lobes; do echo "$dir/obj/rows_${isa}_$lobe.o"; done; done)
 	# shellcheck disable=SC2086
-	[ $compiler = $default ] || check "$compiler: row loops build" build $compiler-O2 CC=$compiler CFLAGS=-O2 ROW_OPT=-O3 $objects
+	[ $compiler = $default ] || check "$compiler: row loops build" build $compiler-O2 $options $objects
 	# shellcheck disable=SC2086
-	check "$compiler: row loops are up to date" make -q -s B=$dir CC=$compiler $objects
+	check "$compiler: row loops are up to date" make -q -s B=$dir $options $objects
 	for isa in baseline avx2 avx512; do
 		case $isa in
 		avx512) bytes=64 ;;

@@ -312,15 +312,15 @@ LOBE_FN_APART lobe_recommendation lobe_recommend_answer(lobe_recommend_sums s, l
 	return best;
 }
 
-/* surface: of the lobe. wo: unit, above the surface; for one that is not, or where a parameter is no number or outside
- * its domain, there is no answer (deviation -1). */
+/* surface: of the lobe. wo: unit; from below the surface no light is seen. Where a parameter is no number, or the light's
+ * disk has no size, there is no answer: deviation -1. */
 LOBE_FN_APART lobe_recommendation lobe_recommend_strategy(lobe_microsurface surface, lobe_vec3 wo,
 							  lobe_light_shape light, lobe_recommend_cost cost)
 {
 	const lobe_real numbers = lobe_microsurface_params(surface) + lobe_vec3_sum(wo) + lobe_vec3_sum(light.axis) +
 				  light.disk + light.glow + light.exponent + light.slope;
 	lobe_recommendation r = lobe_recommend_answer(lobe_recommend_integrate(surface, wo, light), surface, cost);
-	if (!(lobe_is_number(numbers) & (wo.z > LOBE_R(0.0)) & (light.solid_angle > LOBE_R(0.0))))
+	if (!(lobe_is_number(numbers) & (light.solid_angle > LOBE_R(0.0))))
 		r.deviation = LOBE_R(-1.0);
 	return r;
 }

@@ -51,7 +51,8 @@ LOBE_FN lobe_fresnel_interface lobe_fresnel_interface_select(int first, lobe_fre
 }
 
 /* 1 - c^2, the squared sine of incidence on an interface of index eta. From within dense glass light leaves in a cone
- * so narrow that its cosine has no digits left: there it is that of cross, the direction times the unit normal. */
+ * so narrow that its cosine has no digits left: there it is that of cross, a vector as long
+ * as the direction times the unit normal. */
 LOBE_FN lobe_real lobe_sine2(lobe_real c, lobe_real eta, lobe_vec3 cross)
 {
 	const lobe_real one = LOBE_R(1.0);

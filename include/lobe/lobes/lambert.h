@@ -41,7 +41,9 @@ LOBE_FN lobe_sample lobe_lambert_sample(lobe_lambert p, lobe_vec3 wo, lobe_vec3 
 	lobe_vec3 wi = lobe_cosine_hemisphere(lobe_vec2_make(u.x, u.y));
 	wi.z = wo.z < LOBE_R(0.0) ? -wi.z : wi.z;
 	const lobe_real pdf = lobe_lambert_pdf(p, wo, wi);
-	const int ok = (pdf > LOBE_R(0.0)) & lobe_vec3_is_number(wi);
+	/* 0, or NaN where the random numbers are none. One comparison: of two gcc makes a branch. */
+	const lobe_real number = (wi.x + wi.y) - (wi.x + wi.y);
+	const int ok = pdf + number > LOBE_R(0.0);
 	return lobe_sample_select(ok, wi, lobe_rgb_finite_or_zero(p.reflectance), pdf,
 				  LOBE_EVENT_REFLECT | LOBE_EVENT_DIFFUSE);
 }

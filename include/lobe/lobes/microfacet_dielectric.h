@@ -92,7 +92,7 @@ LOBE_FN_APART lobe_microfacet_dielectric_result lobe_microfacet_dielectric_at(lo
 	const lobe_scatter r = lobe_scatter_at(p.surface, strategy, v.o, i, v.e, 1);
 	const int reflects = i.z > zero;
 	const lobe_fresnel_interface by_cosine = lobe_fresnel_interface_unit(r.cosine, r.sine2, v.e);
-	const lobe_fresnel_interface across = lobe_fresnel_interface_across(by_cosine, r.sine2, r.far);
+	const lobe_fresnel_interface across = lobe_fresnel_interface_across(by_cosine, r.sine2, r.cosine_i);
 	const lobe_fresnel_split split = lobe_fresnel_model_interface(
 		p.fresnel, lobe_fresnel_interface_select(reflects, by_cosine, across));
 	const int there = lobe_microfacet_dielectric_params(p) & (r.facing > zero) & (reflects | (p.delta == 0u));

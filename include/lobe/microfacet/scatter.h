@@ -13,11 +13,11 @@
 #include "masking.h"
 #include "strategy.h"
 
-/* facing: > 0 where there is such a facet and both directions see the sides of it that they should. cosine, far: |o.m| and
- * |i.m|. sine2: |o x m|^2, see lobe_sine2. density [1/sr] times F and g2_over_cos is f |cos theta_i|. sampled: density_s
+/* facing: > 0 where there is such a facet and both directions see the sides of it that they should. cosine, cosine_i: |o.m|
+ * and |i.m|. sine2: |o x m|^2, see lobe_sine2. density [1/sr] times F and g2_over_cos is f |cos theta_i|. sampled: density_s
  * rate [1/sr]. gain: (density/density_s) g2_over_cos/rate. */
 typedef struct {
-	lobe_real facing, cosine, far, sine2, density, g2_over_cos, sampled, gain;
+	lobe_real facing, cosine, cosine_i, sine2, density, g2_over_cos, sampled, gain;
 } lobe_scatter;
 
 /* o.z > 0. i is above for a reflection and below for a refraction; e: index of the far side over that of o's (any for a
@@ -48,9 +48,11 @@ LOBE_FN_APART lobe_scatter lobe_scatter_at(lobe_microsurface s, lobe_uint strate
 	const lobe_real facing = lobe_min(lobe_min(o.z, across ? -i.z : i.z), lobe_min(lobe_min(m.o, m.i), m.z));
 	r.facing = lobe_is_number(h2) ? facing : zero;
 	r.cosine = lobe_min(m.o / lobe_sqrt(h2), one);
-	r.far = lobe_min(m.i / lobe_sqrt(h2), one);
-	/* (o + e i) x o = e i x o */
-	r.sine2 = lobe_sine2(r.cosine, e, lobe_vec3_scale(lobe_cross(i, o), e_r / lobe_sqrt(h2)));
+	r.cosine_i = lobe_min(m.i / lobe_sqrt(h2), one);
+	/* (o + e i) x o = e i x o; of a reflection (o - i)/2 is as long, and the same for both. */
+	const lobe_vec3 bent = lobe_vec3_scale(lobe_cross(i, o), e_r / lobe_sqrt(h2));
+	const lobe_vec3 mirrored = lobe_vec3_scale(lobe_vec3_fma(-one, i, o), LOBE_R(0.5));
+	r.sine2 = lobe_sine2(r.cosine, e, lobe_vec3_select(across, bent, mirrored));
 	r.density = s.map.norm * (m.o * x) * (m.i * x) * d.factor;
 	r.g2_over_cos = lobe_masking_g2_over_cos(s, seen_o, seen_i, m, across);
 	if (lobe_strategy_of_directions(strategy)) {
