@@ -31,7 +31,7 @@ static int describe(const lobe_cl_device *device, char *out, size_t size, int *p
 		error = cl->clGetDeviceInfo(device->id, CL_DRIVER_VERSION, TEXT_SIZE, text[4], NULL);
 	if (error != CL_SUCCESS)
 		return 0;
-	*pocl = strcmp(text[0], "Portable Computing Language") == 0;
+	*pocl = strcmp(text[0], LOBE_CL_POCL) == 0;
 	snprintf(out, size, "platform %s, %s\ndevice %s, %s\ndriver %s\n", text[0], text[1], text[2], text[3], text[4]);
 	return 1;
 }

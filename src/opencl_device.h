@@ -15,6 +15,9 @@ enum { LOBE_CL_ONE, LOBE_CL_MANY, LOBE_CL_MIXED, LOBE_CL_HOW_COUNT };
 /* In place of a slot, for a material of LOBE_KIND_NONE. The same number stands in cl/kernels.cl. */
 #define LOBE_CL_NO_SLOT 0xFFFFFFFFu
 
+/* What PoCL calls its platform. */
+#define LOBE_CL_POCL "Portable Computing Language"
+
 /* A kernel and its local size; made when it is first needed. */
 typedef struct {
 	cl_kernel kernel;
@@ -57,7 +60,7 @@ typedef struct {
 	cl_context context;
 	cl_device_id id;
 	int unified;       /* shares its memory with the host: batches need no copies */
-	int loops;         /* a processor: a work-item shades many elements, LOBE_LOOPS of cl/kernels.cl */
+	int loops;         /* a processor, by PoCL: a work-item shades many elements, LOBE_LOOPS of cl/kernels.cl */
 	size_t units;      /* that run work-items */
 	size_t local;      /* work-items in a group */
 	size_t max_count;  /* elements of 4 bytes in a buffer */
