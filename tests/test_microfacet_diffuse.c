@@ -159,6 +159,29 @@ static void test_reflects_back(void)
 			 2.0 * by_eval(clay(0.7, 0.7), rounded(o), rounded(forth)));
 }
 
+/* Where both directions graze a smooth surface, against the mean of eval_one: more than elsewhere, as the header says, of
+ * a value that is many times the smooth surface's. */
+static void test_eval_at_grazing(void)
+{
+	static const double wide[][2] = {{0.0948206112, 0.0826851651}, {0.05, 0.05}, {0.1, 0.2}, {0.02, 0.02}};
+	static const double cosines[] = {0.0144561501, 0.0266015548, 0.06};
+	double worst = 0.0, relative = 0.0;
+	for (int w = 0; w < 4; w++)
+		for (int a = 0; a < 9; a++)
+			for (int turn = 0; turn < 3; turn++) {
+				double o[3], i[3];
+				direction(acos(cosines[a % 3]), 2.96, o);
+				direction(acos(cosines[a / 3]), 2.96 + 0.274 + 1.3 * turn, i);
+				const lobe_microfacet_diffuse p = clay(wide[w][0], wide[w][1]);
+				const double exact = by_one(p, rounded(o), rounded(i));
+				const double off = fabs(by_eval(p, rounded(o), rounded(i)) - exact);
+				worst = larger(worst, off * PI / i[2]);
+				relative = larger(relative, off / exact);
+			}
+	measured("eval at grazing, of Lambert's", worst, 0.3);
+	measured("eval at grazing, relative", relative, 0.12);
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
@@ -166,6 +189,7 @@ int main(void)
 	RUN_TEST(test_eval_of_fixed_facets);
 	RUN_TEST(test_a_planted_error_is_seen);
 	RUN_TEST(test_flat_is_lambert);
+	RUN_TEST(test_eval_at_grazing);
 	RUN_TEST(test_reflects_back);
 	return UNITY_END();
 }

@@ -85,9 +85,9 @@ LOBE_FN lobe_real lobe_microfacet_diffuse_balanced(lobe_microsurface s, lobe_see
 }
 
 /* f |cos theta_i| [1/sr], by LOBE_DIFFUSE_FACETS facets visible from wo and as many from wi. Of what the smooth surface
- * would have, reflectance/pi cos theta_i, it is off by up to .023 for widths from .1 and angles up to 86 degrees, and
- * by up to .2 where both directions graze a smoother surface, whose value is many times that
- * (tests/test_microfacet_diffuse.c). Reciprocal where the masking is. */
+ * would have, reflectance/pi cos theta_i, it is off by up to .023 for widths from .1 and angles up to 86 degrees. Where
+ * both directions graze a smoother surface, 3 degrees and less above one of width .02 to .1, by up to .25, which is a
+ * tenth of the value there (tests/test_microfacet_diffuse.c). Reciprocal where the masking is. */
 LOBE_FN lobe_rgb lobe_microfacet_diffuse_eval(lobe_microfacet_diffuse p, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_real middle = LOBE_R(0.5), scale = LOBE_R(1.0) / (lobe_real)LOBE_DIFFUSE_FACETS;
