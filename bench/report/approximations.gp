@@ -41,7 +41,7 @@ do for [k = 1:6] {
 	set logscale xy
 	set xrange [STATS_min_x/1.6 : STATS_max_x*1.8]
 	set yrange [STATS_min_y/(FLOOR[k] > 0 ? 1.3 : 4) : STATS_max_y*(FLOOR[k] > 0 ? 2 : 4)]
-	plot PARETO(GROUP[k]) using ($4 == 1 ? $2 : NaN):(HELD(k, $3)) skip 1 \
+	plot sprintf("< awk -F, '$4 == 1' %s", PARETO(GROUP[k])) using 2:(HELD(k, $3)) \
 			with lines lw 2 lc rgb "#bbbbbb" title "front", \
 		for [i = 1:COUNT(GROUP[k])] PARETO(GROUP[k]) every ::i::i using 2:(HELD(k, $3)) \
 			with points pt 7 ps 1.4 lc rgb COLOUR(i) title LABEL(k, i), \
