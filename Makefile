@@ -389,7 +389,7 @@ deps:
 
 INSTALLED_LIBS := liblobe.a liblobe.so liblobe.so.0 liblobe.so.$(VERSION)
 
-# Without what only a debugger wants, a third of the size.
+# Without what only a debugger wants, which is most of their size.
 install: $(B)/liblobe.a $(B)/liblobe.so
 	install -d $(DESTDIR)$(LIBDIR)/pkgconfig
 	for dir in lobe lobe/backend lobe/core lobe/microfacet lobe/lobes; do \

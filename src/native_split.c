@@ -11,7 +11,7 @@
 #define PASTE_(a, b) a##b
 #define PASTE(a, b)  PASTE_(a, b)
 
-typedef uint32_t __attribute__((may_alias)) word;
+typedef lobe_word word;
 
 static void look_up(uint32_t *restrict to, const uint32_t *restrict table, const uint32_t *restrict index, size_t n)
 {

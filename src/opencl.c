@@ -171,8 +171,7 @@ static lobe_status inspect(lobe_cl_device *device, const char *prefix)
 					 device->base.name, needed[i].name);
 	}
 	device->unified = unified == CL_TRUE;
-	/* PoCL makes vectors of loops; Intel's runtime of work-items, and is three times as slow with loops
-	 * (bench/peers/opencl.sh). */
+	/* PoCL makes vectors of loops; Intel's runtime makes them of work-items, and leaves loops as they are. */
 	device->loops = (type & CL_DEVICE_TYPE_CPU) != 0 && strcmp(platform_name, LOBE_CL_POCL) == 0;
 	device->units = units ? units : 1;
 	device->local = device->loops ? 1 : GPU_LOCAL;

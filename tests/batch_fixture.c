@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "inputs.h"
 #include "support.h"
 #include "unity.h"
 
@@ -41,22 +42,15 @@ void fixture_close(void)
 
 lobe_batch good_batch(void)
 {
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = FIXTURE_N;
-	b.material = fixture.material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = fixture.in[k];
-		b.wi[k] = fixture.in[3 + k];
-		b.u[k] = fixture.in[6 + k];
-		b.f[k] = fixture.out[k];
-		b.sample_wi[k] = fixture.out[4 + k];
-		b.weight[k] = fixture.out[7 + k];
-	}
-	b.pdf = fixture.out[3];
-	b.sample_pdf = fixture.out[10];
-	b.event = fixture.event;
-	return b;
+	inputs in;
+	float *out[INPUTS_OUTPUTS];
+	in.count = FIXTURE_N;
+	for (int k = 0; k < 9; k++)
+		in.array[k] = fixture.in[k];
+	for (int k = 0; k < INPUTS_OUTPUTS - 1; k++)
+		out[k] = fixture.out[k];
+	out[INPUTS_OUTPUTS - 1] = (float *)(void *)fixture.event;
+	return inputs_batch_to(in, fixture.material, out);
 }
 
 void assert_refused(lobe_status expected, lobe_status got, const char *word)

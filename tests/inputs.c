@@ -114,23 +114,30 @@ inputs inputs_extreme(void)
 	return in;
 }
 
-lobe_batch inputs_batch(inputs in, const uint32_t *material, float *out)
+lobe_batch inputs_batch_to(inputs in, const uint32_t *material, float *const out[INPUTS_OUTPUTS])
 {
-	const size_t n = in.count;
 	lobe_batch b;
 	memset(&b, 0, sizeof b);
-	b.count = n;
+	b.count = in.count;
 	b.material = material;
-	for (size_t k = 0; k < 3; k++) {
+	for (int k = 0; k < 3; k++) {
 		b.wo[k] = in.array[k];
 		b.wi[k] = in.array[3 + k];
 		b.u[k] = in.array[6 + k];
-		b.f[k] = out + k * n;
-		b.sample_wi[k] = out + (4 + k) * n;
-		b.weight[k] = out + (7 + k) * n;
+		b.f[k] = out[k];
+		b.sample_wi[k] = out[4 + k];
+		b.weight[k] = out[7 + k];
 	}
-	b.pdf = out + 3 * n;
-	b.sample_pdf = out + 10 * n;
-	b.event = (uint32_t *)(void *)(out + 11 * n);
+	b.pdf = out[3];
+	b.sample_pdf = out[10];
+	b.event = (uint32_t *)(void *)out[11];
 	return b;
+}
+
+lobe_batch inputs_batch(inputs in, const uint32_t *material, float *out)
+{
+	float *array[INPUTS_OUTPUTS];
+	for (size_t k = 0; k < INPUTS_OUTPUTS; k++)
+		array[k] = out + k * in.count;
+	return inputs_batch_to(in, material, array);
 }

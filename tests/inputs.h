@@ -29,4 +29,7 @@ inputs inputs_extreme(void);
 enum { INPUTS_OUTPUTS = 12 };
 lobe_batch inputs_batch(inputs in, const uint32_t *material, float *out);
 
+/* The same with an array of its own for each output. */
+lobe_batch inputs_batch_to(inputs in, const uint32_t *material, float *const out[INPUTS_OUTPUTS]);
+
 #endif

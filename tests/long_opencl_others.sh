@@ -5,6 +5,7 @@
 # skipped.
 cd "$(dirname "$0")/.." || exit 1
 . tests/unit.sh
+. bench/peers/intel.sh
 out=$PWD/build/others
 test=build/tests/long_opencl_others
 mkdir -p "$out"
@@ -40,19 +41,11 @@ run() {
 	grep -q ' 0 Failures' "$out/$name.said" && grep -qi "opencl:0, .*$name" "$out/$name.said"
 }
 
-intel() {
-	if ! [ -f "$out/intel/done" ]; then
-		python3 -m venv "$out/intel" >"$out/intel.log" 2>&1 &&
-			"$out/intel/bin/pip" install -q intel-opencl-rt intel-cmplr-lib-rt >>"$out/intel.log" 2>&1 || return 1
-		touch "$out/intel/done"
-	fi
-	[ -f "$out/intel/lib/libintelocl.so" ]
-}
-if intel; then
+if intel_opencl; then
 	# It does not promise correct rounding on every processor, and rounds correctly.
 	run_intel() {
-		only "$out/intel" "$out/intel/lib/libintelocl.so"
-		run intel LD_LIBRARY_PATH="$out/intel/lib" LOBE_OTHERS_EXACT=1
+		only "$intel" "$intel/lib/libintelocl.so"
+		run intel LD_LIBRARY_PATH="$intel/lib" LOBE_OTHERS_EXACT=1
 	}
 	check "Intel's OpenCL runtime: the same bits" run_intel
 else

@@ -50,17 +50,6 @@ static inline lobe_microsurface ggx(double alpha)
 	return lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), stretch(alpha, alpha));
 }
 
-/* The facet h, of any length, as o and i see it. */
-static inline lobe_seen_facet seen_facet(lobe_vec3 o, lobe_vec3 i, lobe_vec3 h)
-{
-	lobe_seen_facet m;
-	m.o = lobe_dot(o, h);
-	m.i = lobe_dot(i, h);
-	m.z = h.z;
-	m.length2 = lobe_dot(h, h);
-	return m;
-}
-
 /* (x, y) of the unit square as the facet of the mapped surface whose slopes are those of the GGX surface of the same
  * width: mean + A like r (cos, sin)(2 pi y), r = sqrt(1/x^6 - 1), which is smooth where a tail is long. Unit; returns
  * its solid angle per area of the square. */

@@ -77,26 +77,6 @@ static uint32_t *assign_materials(size_t count, uint32_t stream)
 	return m;
 }
 
-static lobe_batch make_batch(inputs in, results out, const uint32_t *material)
-{
-	lobe_batch b;
-	memset(&b, 0, sizeof b);
-	b.count = in.count;
-	b.material = material;
-	for (int k = 0; k < 3; k++) {
-		b.wo[k] = in.array[k];
-		b.wi[k] = in.array[3 + k];
-		b.u[k] = in.array[6 + k];
-		b.f[k] = out.array[k];
-		b.sample_wi[k] = out.array[4 + k];
-		b.weight[k] = out.array[7 + k];
-	}
-	b.pdf = out.array[3];
-	b.sample_pdf = out.array[10];
-	b.event = (uint32_t *)(void *)out.array[11];
-	return b;
-}
-
 /* --- two ways to shade: scalar functions, and a device -------------------------------------------------------------- */
 
 static void shade_scalar(inputs in, results out, const uint32_t *material)
@@ -107,7 +87,7 @@ static void shade_scalar(inputs in, results out, const uint32_t *material)
 /* Both outputs of eval at once, then each alone must be the same; likewise wi and event of a sample alone. */
 static void shade_device(lobe_scene *scene, inputs in, results out, const uint32_t *material, int subsets)
 {
-	lobe_batch b = make_batch(in, out, material);
+	lobe_batch b = inputs_batch_to(in, material, out.array);
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_sample(scene, &b), lobe_error_message());
 	if (!subsets) {
 		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(scene, &b), lobe_error_message());
@@ -120,7 +100,7 @@ static void shade_device(lobe_scene *scene, inputs in, results out, const uint32
 	b.sample_pdf = NULL;
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(scene, &b), lobe_error_message());
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_sample(scene, &b), lobe_error_message());
-	b = make_batch(in, out, material);
+	b = inputs_batch_to(in, material, out.array);
 	b.pdf = NULL;
 	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(scene, &b), lobe_error_message());
 }

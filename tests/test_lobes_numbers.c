@@ -17,7 +17,7 @@ static int are_numbers(const float *x, int n)
 	return yes;
 }
 
-/* The word at `at` of seven: wo, then wi or u. */
+/* One of six numbers, wo's and then wi's or u's, is bad. */
 static void check(const test_case *c, int at, float bad)
 {
 	float w[6] = {0.48f, 0.36f, 0.8f, -0.64f, 0.48f, 0.6f};

@@ -38,7 +38,7 @@ static double g1_over_cos(const furnace *f, const double m[3])
 		return (double)lobe_vcavity_g1_over_cos(o.z, lobe_dot(f->wo, h), h.z);
 	default: {
 		const lobe_vec3 up = lobe_vec3_make(0.0f, 0.0f, 1.0f);
-		return (double)lobe_masking_g2_over_cos(s, o, lobe_see(s, up, 1.0f), seen_facet(f->wo, up, h), 0);
+		return (double)lobe_masking_g2_over_cos(s, o, lobe_see(s, up, 1.0f), lobe_seen_facet_make(f->wo, up, h), 0);
 	}
 	}
 }

@@ -20,7 +20,7 @@ static double g2(lobe_microsurface s, lobe_vec3 o, lobe_vec3 i)
 {
 	const lobe_seen a = lobe_see(s, o, 1.0f), b = lobe_see(s, i, 1.0f);
 	const lobe_vec3 h = lobe_vec3_add(o, i);
-	return (double)a.z * (double)lobe_masking_g2_over_cos(s, a, b, seen_facet(o, i, h), 0);
+	return (double)a.z * (double)lobe_masking_g2_over_cos(s, a, b, lobe_seen_facet_make(o, i, h), 0);
 }
 
 static double g1(lobe_microsurface s, lobe_vec3 o)
@@ -67,7 +67,7 @@ static void test_joints_keep_their_bounds(void)
 		s.across = LOBE_ACROSS_BETA;
 		const lobe_vec3 below = lobe_vec3_make(i.x, i.y, -i.z);
 		const lobe_seen so = lobe_see(s, o, 1.0f), si = lobe_see(s, below, -1.0f);
-		const double beta = (double)so.z * (double)lobe_masking_g2_over_cos(s, so, si, seen_facet(o, i, h), 1);
+		const double beta = (double)so.z * (double)lobe_masking_g2_over_cos(s, so, si, lobe_seen_facet_make(o, i, h), 1);
 		across_above = larger(across_above, beta / least - 1.0);
 	}
 	measured("G2 above min(G1), relative", above, 1e-6);
@@ -118,7 +118,7 @@ static void test_behind_the_mean_plane(void)
 			s.joint = joints[k];
 			const lobe_vec3 h = lobe_vec3_add(o, i);
 			value[side] = (double)lobe_masking_g2_over_cos(s, lobe_see(s, o, 1.0f), lobe_see(s, i, 1.0f),
-								       seen_facet(o, i, h), 0);
+								       lobe_seen_facet_make(o, i, h), 0);
 			TEST_ASSERT_TRUE(value[side] > 0.0);
 		}
 		jump = larger(jump, fabs(value[0] / value[1] - 1.0));
@@ -126,7 +126,7 @@ static void test_behind_the_mean_plane(void)
 	measured("G2/z_o on both sides of the mean plane's edge, relative", jump, 1e-4);
 	const lobe_vec3 o = direction_at(0.9, 2.0), back = direction_at(0.5, 0.0);
 	TEST_ASSERT_EQUAL_FLOAT(0.0f, lobe_masking_g2_over_cos(s, lobe_see(s, o, 1.0f), lobe_see(s, back, 1.0f),
-							       seen_facet(o, back, lobe_vec3_add(o, back)), 0));
+							       lobe_seen_facet_make(o, back, lobe_vec3_add(o, back)), 0));
 }
 
 /* A lobe_seen of which masking uses z alone. */

@@ -27,16 +27,16 @@ static double worst_g1(lobe_distribution d, float alpha)
 	return worst;
 }
 
-/* Beckmann: Walter's error. Phong: what he states of it, more where it is rough. GTR of gamma 2 is GGX, whose masking is
+/* Beckmann: the fit's own error. Phong: what phong.h states of the fit, .047 at exponent 5 and less beyond. GTR of gamma 2 is GGX, whose masking is
  * another's: the surface of width .05 is nearly unmasked by either, which one of width 1 would not be (.33 off). */
 static void test_masks_by_the_width(void)
 {
 	lobe_distribution d;
 	measured("Beckmann", worst_g1(lobe_distribution_make(LOBE_NDF_BECKMANN), 0.5f), 0.0032);
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_distribution_phong(&d, table, LOBE_PROFILE_WORDS, 1000.0f));
-	measured("Phong, exponent 1000", worst_g1(d, 1.0f), 0.01);
+	measured("Phong, exponent 1000", worst_g1(d, 1.0f), 0.0032);
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_distribution_phong(&d, table, LOBE_PROFILE_WORDS, 10.0f));
-	measured("Phong, exponent 10", worst_g1(d, 1.0f), 0.05);
+	measured("Phong, exponent 10", worst_g1(d, 1.0f), 0.047);
 	TEST_ASSERT_EQUAL(LOBE_OK, lobe_distribution_gtr(&d, table, LOBE_PROFILE_WORDS, 2.0f, 0.05f));
 	measured("GTR, gamma 2, alpha .05", worst_g1(d, 1.0f), 0.25);
 }

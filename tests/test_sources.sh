@@ -172,4 +172,12 @@ installs() {
 	$CC $out/user.c $flags -o $out/user && LD_LIBRARY_PATH=$out/root/usr/lib $out/user
 }
 check "make install, pkg-config, link and run" installs
+uninstalls() {
+	make -s uninstall DESTDIR="$PWD/$out/root" PREFIX=/usr && ! find $out/root ! -type d | grep . || return 1
+	# To another folder for libraries, which lobe.pc then names.
+	make -s install DESTDIR="$PWD/$out/root" PREFIX=/usr LIBDIR=/usr/lib/here && [ -f $out/root/usr/lib/here/liblobe.a ] &&
+		grep -qx 'libdir=${prefix}/lib/here' $out/root/usr/lib/here/pkgconfig/lobe.pc || return 1
+	make -s uninstall DESTDIR="$PWD/$out/root" PREFIX=/usr LIBDIR=/usr/lib/here && ! find $out/root ! -type d | grep .
+}
+check "make uninstall leaves nothing" uninstalls
 finish

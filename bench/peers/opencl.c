@@ -31,10 +31,12 @@ static void open_devices(fleet *f)
 	for (size_t i = 0; i < count && f->count < DEVICES_MAX; i++) {
 		char name[32];
 		snprintf(name, sizeof name, "opencl:%zu", i);
-		if (lobe_device_open(&f->device[f->count], name) == LOBE_OK)
-			printf("device %d   %s\n", f->count, lobe_device_name(f->device[f->count])), f->count++;
-		else
+		if (lobe_device_open(&f->device[f->count], name) != LOBE_OK) {
 			printf("%s: skipped: %s\n", name, lobe_error_message());
+			continue;
+		}
+		printf("device %d   %s\n", f->count, lobe_device_name(f->device[f->count]));
+		f->count++;
 	}
 }
 

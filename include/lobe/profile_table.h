@@ -6,9 +6,8 @@
  *		puts(lobe_error_message());
  *
  * The table belongs to the caller, who keeps it unchanged as long as functions of d or of a lobe made with it are
- * called; a scene keeps a copy from its creation on. It depends on
- * the distribution alone, not on the stretch or map that is put on it. Making one takes some milliseconds, in double
- * precision, and allocates a megabyte or so meanwhile.
+ * called; a scene keeps a copy from its creation on. It depends on the distribution alone, not on the stretch or map
+ * that is put on it. Making one takes some milliseconds, in double precision, and allocates a megabyte or so meanwhile.
  *
  * On failure *out and the table are left as they were. */
 #ifndef LOBE_PROFILE_TABLE_H

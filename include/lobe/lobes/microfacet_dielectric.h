@@ -138,11 +138,7 @@ LOBE_FN_APART lobe_sample lobe_microfacet_dielectric_straight(lobe_microfacet_di
 	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
 	const lobe_vec3 bent = lobe_refract(v.o, m, v.inv_e, split.exact);
 	const lobe_vec3 i = v.e < one ? lobe_normalize(bent) : bent;
-	lobe_seen_facet seen;
-	seen.o = lobe_dot(o.v, facet);
-	seen.i = seen.o;
-	seen.z = facet.z;
-	seen.length2 = lobe_dot(facet, facet);
+	const lobe_seen_facet seen = lobe_seen_facet_make(o.v, o.v, facet);
 	const lobe_real rate = lobe_strategy_rate(strategy, p.surface, o, v.o, 1, seen);
 	const lobe_facet_density d = lobe_distribution_density(p.surface.distribution, facet);
 	const lobe_real ratio = lobe_strategy_ratio(d, lobe_strategy_density(strategy, p.surface, facet, d));

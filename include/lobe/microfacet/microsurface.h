@@ -146,4 +146,15 @@ typedef struct {
 	lobe_real o, i, z, length2;
 } lobe_seen_facet;
 
+/* The facet of normal h, of any length, as two directions see it. */
+LOBE_FN lobe_seen_facet lobe_seen_facet_make(lobe_vec3 o, lobe_vec3 i, lobe_vec3 h)
+{
+	lobe_seen_facet m;
+	m.o = lobe_dot(o, h);
+	m.i = lobe_dot(i, h);
+	m.z = h.z;
+	m.length2 = lobe_dot(h, h);
+	return m;
+}
+
 #endif
