@@ -11,13 +11,13 @@
 enum { ARRAYS = 6 + 8 };
 
 /* The same shape as the library's (cl/kernels.cl): one element in a work-item of a GPU, many in one of a processor, in
- * vectors as wide. */
-#define LOOP                                                                                                           \
+ * vectors as wide, and as many at a time. */
+#define LOOP(vectors)                                                                                                  \
 	"	const ulong begin = get_global_id(0) * (ulong)RUN, end = min(begin + (ulong)RUN, n);\n"                      \
 	"	const lobe_ggx_conductor p = given[0];\n"                                                                    \
 	"#if defined(__clang__) && defined(__AVX512VL__)\n"                                                            \
 	"#pragma clang diagnostic ignored \"-Wpass-failed\"\n"                                                         \
-	"#pragma clang loop vectorize_width(16) interleave_count(2)\n"                                                 \
+	"#pragma clang loop vectorize_width(16) interleave_count(" vectors ")\n"                                       \
 	"#endif\n"                                                                                                     \
 	"	for (ulong i = begin; i < end; i++) {\n"
 #define IN(a)  "__global const float *restrict " #a ", "
@@ -25,7 +25,7 @@ enum { ARRAYS = 6 + 8 };
 
 static const char eval_source[] = "\n__kernel void hand(__global const lobe_ggx_conductor *restrict given, " IN(ox)
 	IN(oy) IN(oz) IN(ix) IN(iy) IN(iz) OUT(r) OUT(g) OUT(b)
-		OUT(pdf) "ulong n)\n{\n" LOOP "		const lobe_vec3 wo = lobe_vec3_make(ox[i], oy[i], oz[i]), wi = "
+		OUT(pdf) "ulong n)\n{\n" LOOP("1") "		const lobe_vec3 wo = lobe_vec3_make(ox[i], oy[i], oz[i]), wi = "
 			 "lobe_vec3_make(ix[i], iy[i], iz[i]);\n"
 			 "		const lobe_rgb f = lobe_ggx_conductor_eval(p, wo, wi);\n"
 			 "		r[i] = f.r;\n		g[i] = f.g;\n		b[i] = f.b;\n"
@@ -33,7 +33,7 @@ static const char eval_source[] = "\n__kernel void hand(__global const lobe_ggx_
 
 static const char sample_source[] = "\n__kernel void hand(__global const lobe_ggx_conductor *restrict given, " IN(ox)
 	IN(oy) IN(oz) IN(ux) IN(uy) IN(uz) OUT(x) OUT(y) OUT(z) OUT(r) OUT(g) OUT(b) OUT(
-		pdf) "__global uint *restrict event, ulong n)\n{\n" LOOP
+		pdf) "__global uint *restrict event, ulong n)\n{\n" LOOP("2")
 		     "		const lobe_sample s = lobe_ggx_conductor_sample(p, lobe_vec3_make(ox[i], oy[i], "
 		     "oz[i]),\n"
 		     "						lobe_vec3_make(ux[i], uy[i], uz[i]));\n"

@@ -37,23 +37,33 @@
 #define LOBE_NO_SLOT 0xFFFFFFFFu
 
 /* For AVX-512, clang (PoCL's compiler) would take vectors of half its registers' width, and of those one at a time.
- * Whole ones take two thirds of the time, and two in flight half of it, since an element is one long chain of dependent
- * operations (samples of ggx_dielectric on Zen 4: 10.7, 6.9 and 5.4 ns). Elsewhere the compiler chooses: with AVX2 its
+ * Whole ones take two thirds of the time, and of a sample, which is one long chain of dependent operations, two in
+ * flight half of it (ggx_dielectric on Zen 4: 10.7, 6.9 and 5.4 ns). The shorter chains of eval and pdf overlap of
+ * themselves, and two of them would not find room in the registers. Elsewhere the compiler chooses: with AVX2 its
  * vectors are whole. It passes over a loop twice and warns when the first pass has left it alone. */
 #if defined(__clang__) && defined(__AVX512VL__)
 #pragma clang diagnostic ignored "-Wpass-failed"
 #define LOBE_WIDE __attribute__((min_vector_width(512)))
-#define LOBE_LOOP _Pragma("clang loop vectorize_width(16) interleave_count(2)")
+#define LOBE_LOOP_ONCE _Pragma("clang loop vectorize_width(16) interleave_count(1)")
+#define LOBE_LOOP_TWICE _Pragma("clang loop vectorize_width(16) interleave_count(2)")
 #else
 #define LOBE_WIDE
-#define LOBE_LOOP
+#define LOBE_LOOP_ONCE
+#define LOBE_LOOP_TWICE
 #endif
+
+/* Before a loop of a verb. */
+#define LOBE_LOOP_eval_f     LOBE_LOOP_ONCE
+#define LOBE_LOOP_eval_pdf   LOBE_LOOP_ONCE
+#define LOBE_LOOP_eval_f_pdf LOBE_LOOP_ONCE
+#define LOBE_LOOP_sample     LOBE_LOOP_TWICE
+#define LOBE_LOOP_sample_wi  LOBE_LOOP_TWICE
 
 /* One work-item's share of [first, last), and the loop over it. */
 #define LOBE_SHARE                                                                                                     \
 	const ulong begin = first + get_global_id(0) * LOBE_RUN;                                                       \
 	const ulong end = min(begin + LOBE_RUN, last);
-#define LOBE_FOR(i) LOBE_SHARE LOBE_LOOP for (ulong i = begin; i < end; i++)
+#define LOBE_FOR(i, loop) LOBE_SHARE loop for (ulong i = begin; i < end; i++)
 
 #define LOBE_INPUT(a) __global const float *restrict a##_x, __global const float *restrict a##_y, \
 		      __global const float *restrict a##_z
@@ -124,7 +134,7 @@
 		__global const uint *restrict slot, __global const uint *restrict material,                            \
 		__global const uint *restrict order, ulong base, LOBE_ARRAYS_##verb)                                   \
 	{                                                                                                              \
-		LOBE_FOR(i) {                                                                                          \
+		LOBE_FOR(i, LOBE_LOOP_##verb) {                                                                        \
 			const ulong e = base + order[i];                                                               \
 			const bool ok = true;                                                                          \
 			const lobe_##lobe p = LOBE_AT_##form(lobe, slot[material[e]]);                                 \
@@ -139,7 +149,7 @@
 	__kernel LOBE_WIDE void lobe_kernel_##lobe##_##verb##_one(                                                     \
 		ulong first, ulong last, ulong run, LOBE_TABLE_##form(lobe), LOBE_ARRAYS_##verb)                       \
 	{                                                                                                              \
-		LOBE_FOR(e) {                                                                                          \
+		LOBE_FOR(e, LOBE_LOOP_##verb) {                                                                        \
 			const bool ok = true;                                                                          \
 			const lobe_##lobe p = LOBE_AT_##form(lobe, 0);                                                 \
 			LOBE_BODY_##verb(lobe)                                                                         \
@@ -150,7 +160,7 @@
 		__global const uint *restrict slot, uint slot_count, __global const uint *restrict material,           \
 		LOBE_ARRAYS_##verb)                                                                                    \
 	{                                                                                                              \
-		LOBE_FOR(e) {                                                                                          \
+		LOBE_FOR(e, LOBE_LOOP_##verb) {                                                                        \
 			const uint m = material[e];                                                                    \
 			const uint place = slot[m < slot_count ? m : 0u];                                              \
 			const bool ok = (m < slot_count) & (place != LOBE_NO_SLOT);                                    \
@@ -175,7 +185,7 @@
 /* Elements whose material is LOBE_KIND_NONE: 0, whose bits are the same for every type. */
 __kernel void lobe_kernel_zero(ulong first, ulong last, ulong run, __global uint *restrict out)
 {
-	LOBE_FOR(e)
+	LOBE_FOR(e, LOBE_LOOP_ONCE)
 		out[e] = 0u;
 }
 
@@ -194,7 +204,7 @@ __kernel void lobe_kernel_zero(ulong first, ulong last, ulong run, __global uint
 __kernel void lobe_kernel_zero_mixed(ulong first, ulong last, ulong run, __global const uint *restrict order,
 				     ulong base, __global uint *restrict out)
 {
-	LOBE_FOR(i)
+	LOBE_FOR(i, LOBE_LOOP_ONCE)
 		out[base + order[i]] = 0u;
 }
 #endif

@@ -70,11 +70,11 @@ enum {
 			differ |= place[e] ^ place[start];                                                             \
 		if (differ == 0u) {                                                                                    \
 			const lobe_##lobe p = LOBE_AT_##form(lobe, place[start]);                                      \
-			LOBE_LOOP for (uint e = start; e < stop; e++) {                                                \
+			LOBE_LOOP_##verb for (uint e = start; e < stop; e++) {                                         \
 				LOBE_BODY_##verb(lobe)                                                                 \
 			}                                                                                              \
 		} else {                                                                                               \
-			LOBE_LOOP for (uint e = start; e < stop; e++) {                                                \
+			LOBE_LOOP_##verb for (uint e = start; e < stop; e++) {                                         \
 				const lobe_##lobe p = LOBE_AT_##form(lobe, place[e]);                                  \
 				LOBE_BODY_##verb(lobe)                                                                 \
 			}                                                                                              \
