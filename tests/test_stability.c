@@ -4,6 +4,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "measured.h"
@@ -197,7 +198,65 @@ static void test_planted_defects_are_found(void)
 	found("Lambda by the tangent", stability_defect_lambda, 0);
 }
 
-/* The search goes uphill, and what it finds can be printed and is a case of the same lobe. */
+/* Two glasses of Gaussian surfaces of which one is seen along its normal from within, by directions eight and twelve
+ * roundings off unit; of the other, tilted away, density and visible area are tails of exponents of 31 and 30. */
+static void test_rare_reasons_are_found(void)
+{
+	static const struct {
+		uint64_t n;
+		stability_class reason;
+	} known[] = {{163545, STABILITY_LENGTH}, {640502, STABILITY_SHAPE}};
+	for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+		for (stability_verb verb = STABILITY_EVAL; verb <= STABILITY_PDF; verb++) {
+			const stability_case c = stability_draw(LOBE_KIND_MICROFACET_DIELECTRIC, known[k].n);
+			const stability_result r = stability_measure(&c, verb);
+			TEST_ASSERT_TRUE(stability_ratio(&r) > STABILITY_LIMIT);
+			TEST_ASSERT_EQUAL_STRING(stability_class_names[known[k].reason],
+						 stability_class_names[stability_explain(&c, verb, &r)]);
+		}
+}
+
+static void read_vector(char **at, const char *name, float v[3])
+{
+	TEST_ASSERT_EQUAL_STRING_LEN(name, *at, strlen(name));
+	*at += strlen(name);
+	for (int k = 0; k < 3; k++)
+		v[k] = strtof(*at, at);
+}
+
+/* The case that a text of stability_print is of. */
+static stability_case read_case(lobe_uint kind, stability_verb verb, char *at)
+{
+	const int samples = verb >= STABILITY_WEIGHT || stability_is_delta_only(kind);
+	stability_case c;
+	memset(&c, 0, sizeof c);
+	c.kind = kind;
+	read_vector(&at, "wo ", c.wo);
+	read_vector(&at, samples ? " u " : " wi ", samples ? c.u : c.wi);
+	while (at[0] == ' ' && at[1] == 'p') {
+		const long k = strtol(at + 2, &at, 10);
+		TEST_ASSERT_TRUE(k >= 0 && k < CASE_PARAMETERS);
+		c.parameter[k] = strtod(at, &at);
+	}
+	TEST_ASSERT_EQUAL_INT(1, sscanf(at, " channel %d", &c.channel));
+	return c;
+}
+
+static void test_printed_cases_give_the_same_bits(void)
+{
+	char text[1024];
+	for (size_t lobe = 0; lobe < STABILITY_LOBES; lobe++)
+		for (uint64_t n = 0; n < 200; n++)
+			for (stability_verb verb = STABILITY_EVAL; verb <= STABILITY_WEIGHT; verb++) {
+				const stability_case c = stability_draw(stability_kinds[lobe], n);
+				stability_print(&c, verb, text, sizeof text);
+				const stability_case back = read_case(c.kind, verb, text);
+				const double value = stability_library(&c, verb), again = stability_library(&back, verb);
+				TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&value, &again, sizeof value, text);
+			}
+}
+
+/* The search goes uphill, and what it finds is a case of the same lobe. */
 static void test_ascents_go_uphill(void)
 {
 	const stability_case c = stability_draw(LOBE_KIND_GGX_DIELECTRIC, 17);
@@ -215,6 +274,8 @@ int main(void)
 	RUN_TEST(test_nothing_that_must_not_come_out);
 	RUN_TEST(test_errors_stay_near_the_floor);
 	RUN_TEST(test_planted_defects_are_found);
+	RUN_TEST(test_rare_reasons_are_found);
+	RUN_TEST(test_printed_cases_give_the_same_bits);
 	RUN_TEST(test_ascents_go_uphill);
 	return UNITY_END() != 0;
 }

@@ -58,7 +58,7 @@ static void write_worst(report_page *page, const report_table *t)
 		"angles, then "
 		"single ulps) from the worst of some hundred draws each, on error over floor, undetermined and tiny "
 		"cases apart; *of one* as above. Inputs as hexadecimal floats, parameters p*n* as the arguments of "
-		"`make` in `tests/cases_make.h`.\n\n| lobe | result | yardstick | drawn | found | value | exact | "
+		"`make` in `tests/cases_make.h`, 0 where they are not named.\n\n| lobe | result | yardstick | drawn | found | value | exact | "
 		"error "
 		"[ulp] | floor (directions') | reason | inputs |\n|---|---|---|--:|--:|--:|--:|--:|--:|---|---|\n");
 	for (size_t row = 0; row < report_table_rows(t); row++) {

@@ -72,7 +72,7 @@ typedef enum {
 	 * a rounding for the floor, which is made of its differences along one input at a time. */
 	STABILITY_BENT,
 	/* Directions are up to four ulp off unit, and the value is between what formulas make of them as they are and
-	 * as unit ones, to 16 floors. */
+	 * as unit ones, to 16 floors: the textbook's, and the library's own in double where these agree on unit ones. */
 	STABILITY_LENGTH,
 	/* The rest is within 16 of what a rounding of something that is of the size of 1 does, which stability_of_one
 	 * finds by asking the reference again. The reflectance of a metal (core/fresnel.h promises it so) ... */
@@ -173,8 +173,8 @@ typedef double (*stability_measure_ratio)(const stability_result *r);
 stability_case stability_ascend(stability_measure_ratio ratio, stability_case c, stability_verb verb, unsigned steps,
 				uint64_t seed);
 
-/* The parameters that c's answer depends on, as places in c.parameter; and c as text: hexadecimal floats, a space
- * apart. */
+/* The parameters that c's answer depends on continuously, as places in c.parameter; and c as text, all that makes it:
+ * hexadecimal floats, a space apart, of the parameters those that are not 0. */
 size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS]);
 void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size);
 

@@ -309,20 +309,14 @@ size_t stability_parameters_of(const stability_case *c, int at[CASE_PARAMETERS])
 
 void stability_print(const stability_case *c, stability_verb verb, char *text, size_t size)
 {
-	int at[CASE_PARAMETERS];
-	const size_t n = stability_parameters_of(c, at);
 	const int samples = verb >= STABILITY_WEIGHT || stability_is_delta_only(c->kind);
 	const float *second = samples ? c->u : c->wi;
 	size_t used = (size_t)snprintf(text, size, "wo %a %a %a %s %a %a %a", (double)c->wo[0], (double)c->wo[1],
 				       (double)c->wo[2], samples ? "u" : "wi", (double)second[0], (double)second[1],
 				       (double)second[2]);
-	for (size_t k = 0; k < n && used < size; k++)
-		used += (size_t)snprintf(text + used, size - used, " p%d %a", at[k], c->parameter[at[k]]);
-	/* What a comparison lobe is made of, and which way light is counted. */
-	if (c->kind >= LOBE_KIND_MICROFACET_CONDUCTOR && used < size)
-		used += (size_t)snprintf(text + used, size - used, " ndf %g masking %g joint %g across %g strategy %g",
-					 c->parameter[8], c->parameter[15], c->parameter[16], c->parameter[17],
-					 c->parameter[18]);
+	for (int k = 0; k < CASE_PARAMETERS && used < size; k++)
+		if (c->parameter[k] != 0.0)
+			used += (size_t)snprintf(text + used, size - used, " p%d %a", k, c->parameter[k]);
 	if (used < size)
 		snprintf(text + used, size - used, " channel %d", c->channel);
 }

@@ -327,8 +327,8 @@ static int is_bent(const stability_case *c, stability_verb verb, double value)
 }
 
 /* Directions are up to four ulp off unit. The textbook takes them as they are: whether the value is within the limit of
- * what lies between its answers to them, to wo, wi or both made unit, and to the cosine that wo would have if it
- * were. */
+ * what lies between its answers to them, to wo, wi or both made unit, to the cosine that wo would have if it were, and
+ * the library's formulas in double, if they give the textbook's answer to unit directions. */
 static int is_length(const stability_case *c, stability_verb verb, const stability_result *r)
 {
 	enum { WO_UNIT = 1, WI_UNIT = 2, COSINE_UNIT = 4, READINGS = 8 };
@@ -352,6 +352,13 @@ static int is_length(const stability_case *c, stability_verb verb, const stabili
 		const long double answer = stability_exacter(q, y);
 		low = fminl(low, answer);
 		high = fmaxl(high, answer);
+		/* Formulas that are the same on the unit sphere differ off it. */
+		if (verb <= STABILITY_PDF && reading == (WO_UNIT | WI_UNIT) &&
+		    fabsl((long double)stability_double_build(q, y) - answer) <= (long double)r->floor) {
+			const long double own = (long double)stability_double_build(q, x);
+			low = fminl(low, own);
+			high = fmaxl(high, own);
+		}
 	}
 	const long double room = STABILITY_LIMIT * (long double)r->floor_of_one;
 	return (long double)r->value >= low - room && (long double)r->value <= high + room;

@@ -178,28 +178,58 @@ static double tail(lobe_vec3 v)
 	return z < 0.0 ? z * z / (double)lobe_vec3_xy2(v) : 0.0;
 }
 
-/* Of a surface that the textbook does not have: tabulated distributions are as good as their headers say (gtr.h and its
- * like: density 2e-6, hidden 3e-6, which are 80 roundings, 16 times this), a Gaussian's tails as their exponents. e: far
- * index over near one. */
+/* What the headers of tabulated distributions say that a density or a hidden area is good for beyond ordinary ones, by
+ * its share in its largest. */
+static double rare(double share) { return share < 1e-4 ? 2e-5 : 0.0; }
+
+static double rare_density(lobe_distribution d, lobe_vec3 h)
+{
+	const lobe_facet_density at = lobe_distribution_density(d, lobe_normalize(h));
+	const lobe_facet_density peak = lobe_distribution_density(d, lobe_vec3_make(0.0f, 0.0f, 1.0f));
+	return rare((double)(at.inv * at.inv * at.factor) / (double)(peak.inv * peak.inv * peak.factor));
+}
+
+/* Of a surface seen from behind its mean plane, which shows its hidden area alone. */
+static double rare_hidden(lobe_distribution d, lobe_vec3 v)
+{
+	const lobe_vec3 rim = lobe_vec3_make(lobe_sqrt(lobe_vec3_xy2(v)), 0.0f, 0.0f);
+	return v.z < 0.0f ? rare((double)lobe_distribution_hidden(d, v) / (double)lobe_distribution_hidden(d, rim)) : 0.0;
+}
+
+/* What a distribution is good for. Tabulated ones are what their headers say (gtr.h and its like: density 2e-6, hidden
+ * 3e-6, and 2e-5 where they are rare), of which a reason is a sixteenth; a Gaussian's tails are as good as their
+ * exponents. e: far index over near one. */
 static void shape(stability_of_one *most, double value, lobe_microsurface s, const long double *x, long double e)
 {
+	const lobe_distribution d = s.distribution;
 	const float side = x[2] > 0.0L ? 1.0f : -1.0f;
 	const int across = x[2] * x[5] < 0.0L;
 	const long double e_r = across ? e : 1.0L;
-	lobe_vec3 o, i, h;
-	if (s.distribution.ndf != LOBE_NDF_BECKMANN && s.distribution.ndf != LOBE_NDF_GGX) {
-		take(most, value * 5.0 * 0x1p-24, STABILITY_SHAPE);
-		return;
+	const lobe_vec3 o = lobe_linear_direction(
+		s.map, lobe_vec3_make(side * (float)x[0], side * (float)x[1], side * (float)x[2]));
+	const lobe_vec3 i = lobe_linear_direction(
+		s.map, lobe_vec3_make(side * (float)x[3], side * (float)x[4], side * (float)x[5]));
+	const lobe_vec3 h = lobe_linear_facet(
+		s.map, lobe_vec3_make(side * (float)(x[0] + e_r * x[3]), side * (float)(x[1] + e_r * x[4]),
+				      side * (float)(x[2] + e_r * x[5])));
+	if (d.ndf == LOBE_NDF_BECKMANN) {
+		const double exponents = steepness(h) + tail(o) + (across ? 0.0 : tail(i));
+		take(most, value * exponents * 0x1p-24, STABILITY_SHAPE);
+	} else if (d.ndf != LOBE_NDF_GGX) {
+		const double off = 5e-6 + rare_density(d, h) + rare_hidden(d, o) + (across ? 0.0 : rare_hidden(d, i));
+		take(most, value * off / STABILITY_LIMIT, STABILITY_SHAPE);
 	}
-	if (s.distribution.ndf != LOBE_NDF_BECKMANN)
-		return;
-	o = lobe_vec3_make(side * (float)x[0], side * (float)x[1], side * (float)x[2]);
-	i = lobe_vec3_make(side * (float)x[3], side * (float)x[4], side * (float)x[5]);
-	h = lobe_vec3_make(side * (float)(x[0] + e_r * x[3]), side * (float)(x[1] + e_r * x[4]),
-			   side * (float)(x[2] + e_r * x[5]));
-	const double exponents = steepness(lobe_linear_facet(s.map, h)) + tail(lobe_linear_direction(s.map, o)) +
-				 (across ? 0.0 : tail(lobe_linear_direction(s.map, i)));
-	take(most, value * exponents * 0x1p-24, STABILITY_SHAPE);
+}
+
+/* The surface of a comparison lobe, and the index that its facets refract by. */
+static void shape_of(stability_of_one *most, double value, const stability_case *c, const long double *x)
+{
+	const lobe_bsdf b = stability_bsdf(c);
+	if (c->kind == LOBE_KIND_MICROFACET_CONDUCTOR)
+		shape(most, value, b.as.microfacet_conductor.surface, x, 1.0L);
+	if (c->kind == LOBE_KIND_MICROFACET_DIELECTRIC)
+		shape(most, value, b.as.microfacet_dielectric.surface, x,
+		      x[2] > 0.0L ? x[6 + 2] : 1.0L / x[6 + 2]);
 }
 
 static stability_class reflectance_of(lobe_uint kind)
@@ -238,19 +268,19 @@ stability_of_one stability_of_one_make(const stability_case *c, stability_questi
 		for (int k = 2; k < 5; k++)
 			mirror[6 + k] = 1.0L;
 		take(&most, stability_double_build(q, mirror) * 0x1p-24, STABILITY_METAL);
-		shape(&most, stability_double_build(q, x), stability_bsdf(c).as.microfacet_conductor.surface, x, 1.0L);
+		shape_of(&most, stability_double_build(q, x), c, x);
 		return most;
 	case LOBE_KIND_MICROFACET_DIELECTRIC:
 		if (stability_is_textbook(c))
 			break;
 		glass(&most, c, q, x);
-		shape(&most, stability_double_build(q, x), stability_bsdf(c).as.microfacet_dielectric.surface, x,
-		      x[2] > 0.0L ? x[6 + 2] : 1.0L / x[6 + 2]);
+		shape_of(&most, stability_double_build(q, x), c, x);
 		return most;
 	default:
 		break;
 	}
 	const long double exact = stability_exact(q, x);
+	shape_of(&most, (double)exact, c, x);
 	if (q.verb == STABILITY_DIRECTION) {
 		/* By one rounding and by four: the answer may turn round in between. */
 		for (int k = 0; k < 8; k++) {
