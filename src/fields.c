@@ -74,7 +74,7 @@ static const field fields_thin_dielectric[] = {INDEX(thin_dielectric, eta)};
 static const field fields_iridescent_conductor[] = {STRETCH(iridescent_conductor, stretch), METAL(iridescent_conductor),
 						    FILM(iridescent_conductor, 1000)};
 
-/* Its film's index is over the thinner medium's. */
+/* Its film's index is over the thinner medium's: lobe_check_optics. */
 static const field fields_iridescent_dielectric[] = {
 	STRETCH(iridescent_dielectric, glass.stretch), INDEX(iridescent_dielectric, glass.eta),
 	INDEX(iridescent_dielectric, glass.inv_eta),   TRANSPORT(iridescent_dielectric, glass.transport),
@@ -103,8 +103,8 @@ static const field fields_iridescent_dielectric[] = {
 		CHOICE(JOINT, lobe, surface.joint, LOBE_JOINT_LAST),                                                   \
 		CHOICE(ACROSS, lobe, surface.across, LOBE_ACROSS_BETA), REAL(lobe, surface.like, 1e-5, 10),            \
 		REAL(lobe, surface.alpha, 1e-10, 1000), REAL(lobe, surface.narrow, 1e-10, 1000)
-/* What they are is told by the model. Of a and b the widest is the index of a conductor, and a dip's depth may be
- * negative; of c and d a film's thickness and index. */
+/* The widest of all models: of a and b the index of a conductor, and a dip's depth may be negative; of c and d a film's
+ * thickness and index. lobe_check_optics knows each model's. */
 #define FRESNEL(lobe)                                                                                                  \
 	CHOICE(FRESNEL, lobe, fresnel.model, LOBE_FRESNEL_LAST), RGB(lobe, fresnel.a, 0, 1000),                        \
 		RGB(lobe, fresnel.b, -1, 1000), REAL(lobe, fresnel.c, 0, 1e6), REAL(lobe, fresnel.d, 0, 1.0001e6)
@@ -223,7 +223,8 @@ lobe_status lobe_check_material(const lobe_bsdf *materials, size_t i)
 		if (!(value >= f->min && value <= f->max))
 			return out_of_domain(f, i, lobe_param_name[index], value);
 	}
-	return check_prepared(materials, i, index);
+	const lobe_status status = lobe_check_optics(materials, i, lobe_param_name[index]);
+	return status == LOBE_OK ? check_prepared(materials, i, index) : status;
 }
 
 int lobe_add_choices(const lobe_bsdf *material, uint32_t used[LOBE_CHOICES_COUNT])

@@ -44,6 +44,9 @@ struct lobe_scene {
 lobe_bsdf lobe_remake(const lobe_bsdf *material);
 int lobe_map_is_whole(const lobe_bsdf *material);
 
+/* Checks what a Fresnel model and a film are made of; lobe: the name of materials[i]'s. (optics_check.c) */
+lobe_status lobe_check_optics(const lobe_bsdf *materials, size_t i, const char *lobe);
+
 /* Size of lobe_<name> by LOBE_INDEX_*, and its name. (fields.c) */
 extern const size_t lobe_param_size[LOBE_COUNT];
 extern const char *const lobe_param_name[LOBE_COUNT];

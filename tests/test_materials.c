@@ -81,6 +81,40 @@ static void test_changed_fields_are_refused(void)
 	refused(lobe_bsdf_from_microfacet_dielectric(any), "surface.map of lobe_microfacet_dielectric");
 }
 
+/* A number of a Fresnel model that another model may have, and films beyond what their make functions take, which keep
+ * them by the thinner medium. */
+static void test_optics_out_of_domain_are_refused(void)
+{
+	const lobe_microsurface s =
+		lobe_microsurface_make(lobe_distribution_make(LOBE_NDF_GGX), lobe_linear_stretch(0.2f, 0.4f));
+	const lobe_rgb half = lobe_rgb_make(0.5f, 0.5f, 0.5f), two = lobe_rgb_make(0.5f, 2.0f, 0.5f);
+	const struct {
+		lobe_fresnel_model model;
+		const char *words;
+	} metal[] = {
+		{lobe_fresnel_model_schlick(two, half), "field fresnel.a.g of lobe_microfacet_conductor is 2"},
+		{lobe_fresnel_model_schlick(half, two), "field fresnel.b.g of lobe_microfacet_conductor is 2"},
+		{lobe_fresnel_model_constant(two), "field fresnel.a.g of lobe_microfacet_conductor is 2"},
+		{lobe_fresnel_model_power(half, half, 0.0f), "field fresnel.c of lobe_microfacet_conductor is 0"},
+		{lobe_fresnel_model_f82(half, lobe_rgb_make(0.5f, 5.0f, 0.5f)),
+		 "field fresnel.b.g of lobe_microfacet_conductor is -"},
+		{lobe_fresnel_model_film_on_conductor(100.0f, 0.5f, two, two),
+		 "field fresnel.d of lobe_microfacet_conductor is 0.5"},
+	};
+	for (size_t i = 0; i < sizeof metal / sizeof *metal; i++)
+		refused(lobe_bsdf_from_microfacet_conductor(
+				lobe_microfacet_conductor_make(s, metal[i].model, LOBE_STRATEGY_VISIBLE)),
+			metal[i].words);
+	const lobe_fresnel_model thick = lobe_fresnel_model_film_on_dielectric(1.5e6f, 1.3f, 0.5f);
+	refused(lobe_bsdf_from_microfacet_dielectric(
+			lobe_microfacet_dielectric_make(s, thick, 0.5f, LOBE_STRATEGY_VISIBLE)),
+		"field fresnel.c of lobe_microfacet_dielectric is 750000");
+	refused(lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.2f, 0.2f, 1.5e6f, 1.3f, 0.5f)),
+		"field film.thickness of lobe_iridescent_dielectric is 750000");
+	refused(lobe_bsdf_from_iridescent_dielectric(lobe_iridescent_dielectric_make(0.2f, 0.2f, 300.0f, 1500.0f, 0.5f)),
+		"field film.index of lobe_iridescent_dielectric is 3000");
+}
+
 /* Maps of every make function, at the ends of their domains, belong to their inverses. */
 static void test_takes_every_map(void)
 {
@@ -157,6 +191,7 @@ int main(void)
 	UNITY_BEGIN();
 	RUN_TEST(test_takes_every_case);
 	RUN_TEST(test_changed_fields_are_refused);
+	RUN_TEST(test_optics_out_of_domain_are_refused);
 	RUN_TEST(test_takes_every_map);
 	RUN_TEST(test_takes_a_stray_handle);
 	RUN_TEST(test_scene_holds_its_device);
