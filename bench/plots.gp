@@ -24,14 +24,15 @@ set boxwidth 0.9
 set grid ytics
 set key outside bottom center horizontal Left reverse
 set xtics scale 0
-set bmargin 5
+# Names of lobes are longer than their bars are wide.
+if (LOBES > 7) set xtics rotate by 20 right; set bmargin 8; else set bmargin 5
 
 do for [device in DEVICES] {
 	set output file("throughput", device)
 	set title sprintf("throughput, %s", device)
 	set ylabel "million elements per second"
 	set logscale y
-	set yrange [1:*]
+	set yrange [0.01:*]
 	plot for [verb in VERBS] rows(verb, device) using 7:xtic(1) title verb
 	unset logscale y
 
@@ -46,7 +47,10 @@ do for [device in DEVICES] {
 		set output file("of_native", device)
 		set title sprintf("%s against the native device with all threads", device)
 		set ylabel "times the native throughput"
-		plot for [verb in VERBS] rows(verb, device) using 16:xtic(1) title verb
+		set logscale y
+		set yrange [0.1:*]
+		plot for [verb in VERBS] rows(verb, device) using 16:xtic(1) title verb, 1 with lines lc rgb "black" notitle
+		unset logscale y
 	}
 }
 
@@ -79,11 +83,11 @@ if (exists_file(ROOFLINE)) {
 	PEAK = largest(15)
 	BAND = largest(13)
 	set output FOLDER . "/roofline.png"
-	set title "operations and bytes of every loop, one thread"
+	set title "operations and bytes of every loop, one thread; lobes are named at sample"
 	set xlabel "operations for a byte"
 	set ylabel "thousand million operations per second"
 	set logscale xy
-	set xrange [0.05:20]
+	set xrange [0.05:100]
 	set yrange [0.5:2 * PEAK]
 	set grid
 	set key bottom right
@@ -93,7 +97,7 @@ if (exists_file(ROOFLINE)) {
 		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($8 * $4 / 1000) with points pt 7 ps 1.3 lc i title word(VERBS, i) . ", from memory", \
 		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($12 * $4 / 1000) with points pt 6 ps 1.3 lc i notitle, \
 		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($14 > 0 ? $14 * $4 / 1000 : 1 / 0) with points pt 2 ps 1 lc i notitle, \
-		for [i = 1:words(VERBS)] points(word(VERBS, i)) using ($4 / $3):($8 * $4 / 1000):1 with labels left offset 1, 0 font "sans,8" notitle, \
+		points("sample") using ($4 / $3):($8 * $4 / 1000):1 with labels left rotate by -35 offset 0.7, -0.4 font "sans,9" notitle, \
 		1 / 0 with points pt 6 lc rgb "black" title "hollow: in the cache", \
 		1 / 0 with points pt 2 lc rgb "black" title "crosses: what the divider allows"
 }
