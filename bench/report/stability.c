@@ -50,6 +50,13 @@ static size_t worst_of(const report_table *t, const char *reference, int unexpla
 	return worst;
 }
 
+/* Relative error. */
+static double off_by(const report_table *t, size_t row)
+{
+	const double exact = report_number(t, row, "exact");
+	return fabs(report_number(t, row, "value") - exact) / fabs(exact);
+}
+
 static void write_worst(report_page *page, const report_table *t)
 {
 	report_text(
@@ -77,11 +84,12 @@ static void write_worst(report_page *page, const report_table *t)
 		page,
 		"The worst that ascents from many starts find against the textbook is %.3g floors (reflectances "
 		"counted in roundings of 1): %s of %s, %s for %s, by its reason: %s. Of what no reason covers, %.3g "
-		"(%s of %s), and %.3g against the double build (%s of %s).",
+		"(%s of %s, off by %.2g of it), and %.3g against the double build (%s of %s, off by %.2g).",
 		report_number(t, worst, "found"), report_cell(t, worst, "verb"), report_cell(t, worst, "lobe"),
 		report_cell(t, worst, "value"), report_cell(t, worst, "exact"), report_cell(t, worst, "class"),
 		report_number(t, plain, "found"), report_cell(t, plain, "verb"), report_cell(t, plain, "lobe"),
-		report_number(t, other, "found"), report_cell(t, other, "verb"), report_cell(t, other, "lobe"));
+		off_by(t, plain), report_number(t, other, "found"), report_cell(t, other, "verb"),
+		report_cell(t, other, "lobe"), off_by(t, other));
 }
 
 /* The largest view cosine from which on down the median floor is above a hundredth; 0: none. */
