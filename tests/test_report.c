@@ -39,7 +39,7 @@ static int toy_run(int quick, size_t unit, report_rows *rows)
 }
 
 static const report_study toy = {.name = "toy_study", .columns = "unit,row,sum", .units = toy_units, .run = toy_run};
-static const report_section section = {.name = "toy", .title = "Toy", .studies = {&toy}};
+static const report_section section = {.name = "toy", .title = "Toy", .question = "Which toy?", .studies = {&toy}};
 
 static const report_table *run(int quick, size_t threads)
 {

@@ -370,6 +370,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 const report_section report_approximations = {
 	.name = "approximations",
 	.title = "Approximations: error against time",
+	.question = "Which approximation is worth it?",
 	.studies = {&error_study, &approximations_time_study, &approximations_field_study,
 		    &approximations_precision_study, NULL},
 	.write = write,

@@ -94,4 +94,4 @@ static void write(report_page *page, const report_table *const *tables, int quic
 }
 
 const report_section furnaces_section = {
-	"furnaces", "Furnaces: the energy that is kept", {&furnaces_white, &furnaces_shown, &furnaces_weak}, write};
+	"furnaces", "Furnaces: the energy that is kept", "What does single scattering lose?", {&furnaces_white, &furnaces_shown, &furnaces_weak}, write};

@@ -17,7 +17,7 @@ void report_finding(report_page *page, const char *format, ...)
 	va_start(arguments, format);
 	report_rows_add(&page->findings, "- ");
 	report_rows_print(&page->findings, format, arguments);
-	report_rows_add(&page->findings, " ([%s](#%s))\n", page->section, page->section);
+	report_rows_add(&page->findings, "\n");
 	va_end(arguments);
 }
 
@@ -78,6 +78,7 @@ void report_gnuplot(report_page *page, const char *script, const char *definitio
 void report_page_section(report_page *page, const report_section *section)
 {
 	page->section = section->name;
+	report_rows_add(&page->findings, "\n### [%s](#%s)\n\n", section->question, section->name);
 	report_rows_add(&page->text, "\n<a id=\"%s\"></a>\n\n## %s\n\n", section->name, section->title);
 	report_rows_add(&page->text, "Raw data:");
 	for (int i = 0; i < REPORT_STUDIES_MAX && section->studies[i]; i++)
@@ -138,7 +139,7 @@ void report_page_write(const report_page *page, int quick, int whole)
 	fprintf(to, "```\n");
 	bench_print_machine(to);
 	print_devices(to);
-	fprintf(to, "```\n\n## Findings\n\nEach figure is computed from the rows of its section.\n\n%s",
+	fprintf(to, "```\n\n## Findings\n\nEach figure is computed from the rows of its section.\n%s",
 		page->findings.text ? page->findings.text : "");
 	fprintf(to, "%s", page->text.text ? page->text.text : "");
 	close_file(to, "report.md");

@@ -79,7 +79,7 @@ void *report_open(const char *file);
 enum { REPORT_STUDIES_MAX = 8 };
 
 typedef struct {
-	const char *name, *title;
+	const char *name, *title, *question; /* question: what its findings answer, a heading of the summary */
 	const report_study *studies[REPORT_STUDIES_MAX]; /* ended by NULL */
 	/* tables: of the studies, in their order. */
 	void (*write)(report_page *page, const report_table *const *tables, int quick);

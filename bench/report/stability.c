@@ -223,5 +223,6 @@ static void write(report_page *page, const report_table *const *tables, int quic
 const report_section stability_section = {
 	"stability",
 	"Stability",
+	"Where does single precision end?",
 	{&stability_sweep, &stability_counting, &stability_worst, &stability_maps, &stability_forming},
 	write};

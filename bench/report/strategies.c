@@ -118,6 +118,7 @@ static void write(report_page *page, const report_table *const *tables, int quic
 const report_section strategies_section = {
 	"strategies",
 	"Sampling strategies: error against time",
+	"Which strategy, when?",
 	{&strategies_map_study, &strategies_time_study, &strategies_batch_study, &strategies_curves_study,
 	 &strategies_reference_study, &strategies_expected_study, &strategies_pictures_study,
 	 &strategies_holdout_study},
