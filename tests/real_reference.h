@@ -27,8 +27,8 @@
 	X(log, 0, 0.86, lobe_log(x))                                                                                   \
 	X(log2, 0, 1.60, lobe_log2(x))                                                                                 \
 	X(erf, -1, 1.28, lobe_erf(x))                                                                                  \
-	X(erfcx, 0, 6.06, lobe_erfcx(x))                                                                               \
-	X(ierfcx, 0, 6.72, lobe_ierfcx(x))                                                                             \
+	X(erfcx, 0, 6.45, lobe_erfcx(x))                                                                               \
+	X(ierfcx, 0, 7.29, lobe_ierfcx(x))                                                                             \
 	X(erfinv, -1, 2.40, lobe_erfinv(x))
 /* Sampled, not exhausted: a little above the measured maximum. */
 #define REAL_ATAN2_BOUND 1.75
