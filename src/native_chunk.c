@@ -235,8 +235,8 @@ static size_t block_size(const lobe_native_job *j, int whole)
 	const lobe_job *const job = j->job;
 	if (whole < 0)
 		return lobe_native_split_block(j->scene);
-	/* Materials are looked up for a block of slots. */
-	const int apart = !lobe_is_packed(job) || (job->material && j->scene->count > 1);
+	/* Materials are looked up for a block of slots, however many the scene has. */
+	const int apart = !lobe_is_packed(job) || job->material;
 	return apart || !all_wanted(job) ? LOBE_NATIVE_BLOCK : j->chunk;
 }
 

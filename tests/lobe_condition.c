@@ -1,5 +1,6 @@
 #include "lobe_condition.h"
 
+#include "support.h"
 #include "textbook.h"
 
 #include <math.h>
@@ -130,9 +131,20 @@ static double surface_condition(const lobe_microsurface *s, const double o[3], c
 	return sum;
 }
 
+/* By how much the height of a facet counts that is nearly vertical, seen from below: H.z = o.z + i.z/eta inherits the
+ * rounding of 1/eta. Densities fall with a power of it (as slopes do, of D itself 4 less), facets are counted by their
+ * area on the plane, and cavities show of their sides what is in proportion to it. */
+static double height_condition(const lobe_microsurface *s, double e, double iz, double hz)
+{
+	const lobe_distribution d = s->distribution;
+	const double exponent = d.ndf == LOBE_NDF_PHONG ? 0.5 * (double)d.exponent + 2.0 : (double)d.exponent;
+	const double power = d.ndf == LOBE_NDF_GGX || d.ndf == LOBE_NDF_BECKMANN ? 0.0 : fmax(0.0, 2.0 * exponent - 4.0);
+	return (1.0 + power) * e * fabs(iz / hz);
+}
+
 /* A facet's i.m and o.m are differences where it is steep: what they are off by is some u of 1, to be compared with
- * their mean over the facets, of which Lambert's cosine is a measure. A cavity besides divides by them, where they are
- * above 2 z. */
+ * their mean over the facets, of which Lambert's cosine is a measure where both directions see the same ones. A cavity
+ * besides divides by them, where they are above 2 z. */
 static double diffuse_condition(const test_case *c, lobe_vec3 wo, lobe_vec3 wi)
 {
 	const lobe_microfacet_diffuse p = c->bsdf.as.microfacet_diffuse;
@@ -140,7 +152,9 @@ static double diffuse_condition(const test_case *c, lobe_vec3 wo, lobe_vec3 wi)
 	if (!(o.sigma > 0.0f && i.sigma > 0.0f))
 		return 0.0;
 	const double cavity = p.surface.masking == LOBE_MASKING_VCAVITY ? 0.5 / (double)o.z + 0.5 / (double)i.z : 0.0;
-	return 1.0 / (double)o.sigma + 1.0 / (double)i.sigma + cavity;
+	const double smooth = (double)p.reflectance.r * (double)wi.z / PI;
+	const double rough = (double)lobe_microfacet_diffuse_eval(p, wo, wi).r;
+	return (1.0 / (double)o.sigma + 1.0 / (double)i.sigma + cavity) * fmax(1.0, smooth / fmax(rough, 1e-30));
 }
 
 conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_f, double inexact)
@@ -197,6 +211,8 @@ conditions condition_of(const test_case *c, lobe_vec3 wo_f, lobe_vec3 wi_f, doub
 	if (o[2] < 0.0)
 		r.index =
 			e_view / fabs(e_view - 1.0) + (transmits ? e_view * (4.0 * slope + 1.0 / oh + 1.0 / ih) : 0.0);
+	if (o[2] < 0.0 && transmits && surface_of(c))
+		r.index += height_condition(surface_of(c), e_view, i[2], h[2]);
 	r.input = inexact * ((1.0 + e) * (4.0 * slope + 1.0 / oh + 1.0 / ih) + (e_view < 1.0 ? 1.0 / fabs(g2) : 0.0));
 	return r;
 }

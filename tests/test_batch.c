@@ -447,10 +447,44 @@ static void test_source_and_options(void)
 	TEST_ASSERT_NOT_NULL(strstr(lobe_opencl_options(fixture.scene), "-DLOBE_HAS_DEFAULT=0"));
 }
 
+/* Material indices of a scene of one material, all 0: of a batch so large that no thread's own memory would hold it
+ * at once. */
+static void test_many_elements_of_one_material(void)
+{
+	enum { N = 300000 };
+	const lobe_bsdf one = lobe_bsdf_from_lambert(lobe_lambert_make(lobe_rgb_make(0.5f, 0.5f, 0.5f)));
+	float *const zero = calloc(N, sizeof *zero), *const up = malloc(N * sizeof *up), *const pdf = malloc(N * sizeof *pdf);
+	uint32_t *const material = calloc(N, sizeof *material);
+	TEST_ASSERT_TRUE(zero && up && pdf && material);
+	for (size_t i = 0; i < N; i++)
+		up[i] = 1.0f;
+	for (int threads = 1; threads <= 2; threads++) {
+		lobe_device *d;
+		lobe_scene *s;
+		TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, threads == 1 ? "native:1" : "native:2"));
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_create(&s, d, &one, 1), lobe_error_message());
+		const lobe_batch b = {.count = N,
+				      .material = material,
+				      .wo = {zero, zero, up},
+				      .wi = {zero, zero, up},
+				      .pdf = pdf};
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_eval(s, &b), lobe_error_message());
+		for (size_t i = 0; i < N; i++)
+			TEST_ASSERT_EQUAL_FLOAT(lobe_bsdf_pdf(one, lobe_vec3_make(0, 0, 1), lobe_vec3_make(0, 0, 1)), pdf[i]);
+		lobe_scene_destroy(s);
+		lobe_device_close(d);
+	}
+	free(zero);
+	free(up);
+	free(pdf);
+	free(material);
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
 	RUN_TEST(test_device_names);
+	RUN_TEST(test_many_elements_of_one_material);
 	RUN_TEST(test_device_refusals);
 	RUN_TEST(test_isa_by_name);
 	RUN_TEST(test_status_strings);
