@@ -5,7 +5,7 @@
  *		for (size_t k = 0; k < case_wo_count(c); k++)
  *			... lobe_bsdf_eval(c->bsdf, case_wo(k), ...)
  *
- * A lobe of lobes.def without a table in cases.c does not compile. */
+ * A lobe of lobes.def without a table in case_recipes.c, or a description in cases.c, does not compile. */
 #ifndef LOBE_TESTS_CASES_H
 #define LOBE_TESTS_CASES_H
 

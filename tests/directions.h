@@ -1,4 +1,4 @@
-/* directions.h - test directions as the library takes them, rounded from double. */
+/* directions.h - test directions as the library takes them: rounded from double, and three numbers as a vector. */
 #ifndef LOBE_TESTS_DIRECTIONS_H
 #define LOBE_TESTS_DIRECTIONS_H
 
@@ -6,6 +6,10 @@
 
 #include "lobe/core/vec.h"
 #include "support.h"
+
+static inline lobe_vec3 vec3(const float v[3]) { return lobe_vec3_make(v[0], v[1], v[2]); }
+
+static inline lobe_vec3 rounded(const double v[3]) { return lobe_vec3_make((float)v[0], (float)v[1], (float)v[2]); }
 
 /* The direction whose cosine to the normal is z, at azimuth phi. */
 static inline lobe_vec3 direction_at(double z, double phi)
@@ -26,7 +30,7 @@ static inline lobe_vec3 random_direction(uint32_t stream, uint64_t i)
 {
 	float w[3];
 	test_direction(stream, i, w);
-	return lobe_vec3_make(w[0], w[1], w[2]);
+	return vec3(w);
 }
 
 #endif

@@ -2,7 +2,7 @@
  * test_smith_leadr.c.) */
 #include "lobe/microfacet/smith.h"
 
-#include "leadr.h"
+#include "leadr_surfaces.h"
 #include "measured.h"
 #include "support.h"
 #include "unity.h"
@@ -68,7 +68,6 @@ static double inverse_error(lobe_linear m)
 	return worst / fmax(norm2 / fabs(det), 1.0);
 }
 
-static const double rhos[] = {-0.9999, -0.99, -0.5, 0.0, 0.3, 0.9, 0.999, 0.9999};
 static const double alphas[] = {1e-4, 1e-3, 0.05, 0.4, 1.0, 10.0};
 
 static void test_constructors(void)

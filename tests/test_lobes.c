@@ -1,5 +1,6 @@
 /* test_lobes.c - what every lobe promises about single samples and pairs of directions. */
 #include "cases.h"
+#include "directions.h"
 #include "support.h"
 
 #include "unity.h"
@@ -11,8 +12,6 @@ void setUp(void) {}
 void tearDown(void) {}
 
 #define ULP 0x1p-23
-
-static lobe_vec3 vec3(const float v[3]) { return lobe_vec3_make(v[0], v[1], v[2]); }
 
 static void test_every_lobe_has_cases(void)
 {

@@ -16,8 +16,6 @@
 void setUp(void) {}
 void tearDown(void) {}
 
-static lobe_vec3 to_vec3(const double v[3]) { return lobe_vec3_make((float)v[0], (float)v[1], (float)v[2]); }
-
 /* f |cos theta_i| of something, as seen through a map of directions. */
 typedef struct {
 	const lobe_bsdf *bsdf; /* NULL: the GGX core functions with F = 1 */
@@ -42,8 +40,8 @@ static double reflected_energy(void *context, double x, double y)
 	if (!(area > 0.0))
 		return 0.0;
 	if (!v->bsdf)
-		return area * core_f(v, to_vec3(wi));
-	const lobe_rgb f = lobe_bsdf_eval(*v->bsdf, v->wo, to_vec3(wi));
+		return area * core_f(v, rounded(wi));
+	const lobe_rgb f = lobe_bsdf_eval(*v->bsdf, v->wo, rounded(wi));
 	/* Of a coloured film one channel can pass what another reflects: their mean is what both events share. */
 	if (v->bsdf->kind == LOBE_KIND_IRIDESCENT_DIELECTRIC)
 		return area * ((double)f.r + (double)f.g + (double)f.b) / 3.0;
@@ -196,7 +194,7 @@ static double weak_facets(void *context, double x, double y)
 	const double area = map_facet(&w->map, x, y, m);
 	const double c = textbook_dot(w->map.o, m);
 	/* D from a half vector whose components are each rounded once: no cancellation at any alpha. */
-	const double inv_q = (double)lobe_ggx_density(lobe_stretch_facet(w->ggx, to_vec3(m))).inv;
+	const double inv_q = (double)lobe_ggx_density(lobe_stretch_facet(w->ggx, rounded(m))).inv;
 	return c > 0.0 ? g1_over_cos(w) * c * (double)w->ggx.norm * inv_q * inv_q * area : 0.0;
 }
 
@@ -218,7 +216,7 @@ static double weak_sphere(void *context, double x, double y)
 	for (int k = 0; k < 3; k++)
 		h[k] = w->map.o[k] + i[k];
 	textbook_normalize(h);
-	return area * 0.25 * g1_over_cos(w) * (double)stretched_ggx_d(w->ggx, to_vec3(h));
+	return area * 0.25 * g1_over_cos(w) * (double)stretched_ggx_d(w->ggx, rounded(h));
 }
 
 static double weak(quadrature_integrand f, double ax, double ay, double mu, int masking)

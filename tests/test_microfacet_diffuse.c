@@ -1,5 +1,6 @@
 /* The integral over diffuse facets (Heitz 2014, eq. 31) against adaptive quadrature in double of the textbook's D,
  * Lambda and dot products: that of eval's fixed facets, and that of the unbiased one. */
+#include "directions.h"
 #include "lobe/shading.h"
 #include "measured.h"
 #include "quadrature.h"
@@ -64,8 +65,6 @@ static void direction(double theta, double phi, double w[3])
 	w[1] = (double)(float)(sin(theta) * sin(phi));
 	w[2] = (double)(float)cos(theta);
 }
-
-static lobe_vec3 rounded(const double w[3]) { return lobe_vec3_make((float)w[0], (float)w[1], (float)w[2]); }
 
 /* How far off a function of (wo, wi) is over all pairs, in units of what a smooth diffuse surface would be. */
 typedef double (*estimate)(lobe_microfacet_diffuse p, lobe_vec3 wo, lobe_vec3 wi);

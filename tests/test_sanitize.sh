@@ -31,9 +31,11 @@ clean() {
 	return 1
 }
 
-for program in test_batch test_strides test_async test_vectors test_opencl test_opencl_none test_opencl_faults test_opencl_cache \
-	test_opencl_cache_files test_opencl_all test_fallback test_core test_fma test_real test_warp test_fresnel test_fresnel_schlick \
-	test_fresnel_conductor test_refract test_ggx test_ggx_visible test_linear test_smith_leadr test_slopes test_lobes_extremes; do
+for program in test_device test_scene test_batch test_strides test_async test_vectors test_opencl test_opencl_none \
+	test_opencl_faults test_opencl_cache test_opencl_cache_files test_opencl_all test_fallback test_core test_fma test_real \
+	test_warp test_warp_density test_warp_inverse test_fresnel test_fresnel_schlick test_fresnel_conductor test_refract \
+	test_ggx test_ggx_visible test_linear test_smith_leadr test_smith_integrals test_smith_extremes test_slopes \
+	test_slopes_pyramid test_slopes_layers test_slopes_refused test_lobes_extremes test_lobes_parameters; do
 	check "$program builds" sanitized $program
 	check "$program runs clean" clean $program
 done
@@ -42,7 +44,7 @@ done
 raceless() {
 	make -s -j2 B=$out/threads ISAS=baseline ROW_OPT=-O1 CFLAGS="-O1 -g1 -fsanitize=thread" "$out/threads/tests/$1" && "$out/threads/tests/$1" native
 }
-for program in test_batch test_async; do check "$program has no data race" raceless $program; done
+for program in test_device test_batch test_async; do check "$program has no data race" raceless $program; done
 
 # A planted overflow is reported.
 printf '#include <stdlib.h>\nint main(void) { volatile char *p = malloc(4); return p[4]; }\n' >$out/planted.c

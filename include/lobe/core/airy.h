@@ -13,7 +13,7 @@
  * No film is no film: with d = 0 the result is the base's own Fresnel reflectance to rounding, with film = 1 too, and
  * so it is where OPD is a whole number of wavelengths. Absolute error where OPD is below a wavelength 9.8e-7 over a
  * dielectric, 3.9e-6 over a metal, beyond by 2.6e-6 for each wavelength: a rounding of the phase
- * (tests/test_thin_film.c, against complex double). */
+ * (tests/test_airy.c, against complex double). */
 #ifndef LOBE_CORE_AIRY_H
 #define LOBE_CORE_AIRY_H
 
