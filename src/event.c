@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "strides.h"
+#include "thread.h"
 
 struct lobe_event {
 	lobe_event *next; /* in the queue */
@@ -137,7 +138,7 @@ static lobe_worker *new_worker(void)
 		return NULL;
 	if (pthread_mutex_init(&w->lock, NULL) == 0) {
 		if (pthread_cond_init(&w->changed, NULL) == 0) {
-			if (pthread_create(&w->thread, NULL, work, w) == 0)
+			if (lobe_thread_create(&w->thread, work, w) == 0)
 				return w;
 			pthread_cond_destroy(&w->changed);
 		}

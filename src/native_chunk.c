@@ -176,6 +176,39 @@ static void shade_mixed(const lobe_native_job *j, lobe_native_scratch *s, const 
 	}
 }
 
+/* --- the floating-point environment ------------------------------------------------------------------------------- */
+
+/* The caller's may round otherwise or flush subnormal numbers, and threads of the pool have that of who opened the
+ * device: all shade in the default one. */
+#ifdef LOBE_X86
+#include <immintrin.h>
+
+typedef unsigned environment;
+
+static environment enter_default(void)
+{
+	const environment before = _mm_getcsr();
+	_mm_setcsr(0x1f80); /* rounds to nearest, keeps subnormals, traps nothing */
+	return before;
+}
+
+static void leave_default(environment before) { _mm_setcsr(before); }
+#else
+#include <fenv.h>
+
+typedef fenv_t environment;
+
+static environment enter_default(void)
+{
+	environment before;
+	fegetenv(&before);
+	fesetenv(FE_DFL_ENV);
+	return before;
+}
+
+static void leave_default(environment before) { fesetenv(&before); }
+#endif
+
 /* --- chunks ------------------------------------------------------------------------------------------------------ */
 
 /* Elements [first, first + n) of the job as packed arrays: where they are, or in the thread's own memory. unpack: the
@@ -284,14 +317,17 @@ void lobe_native_chunk(void *context, size_t chunk, size_t thread)
 {
 	lobe_native_job *const j = context;
 	const size_t first = chunk * j->chunk, left = j->job->count - first, n = left < j->chunk ? left : j->chunk;
+	const environment before = enter_default();
 	struct timespec start, end;
 	if (chunk != 0) {
 		shade_chunk(j, &j->scratch[thread], first, first + n);
+		leave_default(before);
 		return;
 	}
 	clock_gettime(CLOCK_MONOTONIC, &start);
 	shade_chunk(j, &j->scratch[thread], first, first + n);
 	clock_gettime(CLOCK_MONOTONIC, &end);
+	leave_default(before);
 	j->nanoseconds =
 		((double)(end.tv_sec - start.tv_sec) * 1e9 + (double)(end.tv_nsec - start.tv_nsec)) / (double)n;
 }

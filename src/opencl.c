@@ -50,6 +50,7 @@ static lobe_status list_platform(const lobe_cl_functions *cl, cl_platform_id pla
 static lobe_status list_devices(const lobe_cl_functions *cl, entry **list, size_t *count)
 {
 	lobe_status status = LOBE_OK;
+	lobe_message before;
 	cl_platform_id *platforms;
 	cl_uint n = 0, i;
 	cl_int error = cl->clGetPlatformIDs(0, NULL, &n);
@@ -64,11 +65,14 @@ static lobe_status list_devices(const lobe_cl_functions *cl, entry **list, size_
 	if (error != CL_SUCCESS)
 		status = lobe_cl_fail("clGetPlatformIDs", error);
 	/* A platform that fails is passed over; its failure is told when no other has a device. */
+	lobe_message_get(&before);
 	for (i = 0; error == CL_SUCCESS && i < n; i++) {
 		const lobe_status failed = list_platform(cl, platforms[i], list, count);
 		status = failed != LOBE_OK ? failed : status;
 	}
 	free(platforms);
+	if (*count)
+		lobe_message_set(&before);
 	return *count ? LOBE_OK : status;
 }
 

@@ -107,6 +107,7 @@ enum {
 	CL_QUEUE_CONTEXT = 0x1090,
 	CL_QUEUE_DEVICE = 0x1091,
 	CL_QUEUE_PROPERTIES = 0x1093,
+	CL_MEM_TYPE = 0x1100,
 	CL_MEM_FLAGS = 0x1101,
 	CL_MEM_SIZE = 0x1102,
 	CL_MEM_CONTEXT = 0x1106,
@@ -130,6 +131,7 @@ enum {
 #define CL_MEM_READ_WRITE    ((cl_bitfield)1 << 0)
 #define CL_MEM_WRITE_ONLY    ((cl_bitfield)1 << 1)
 #define CL_MEM_READ_ONLY     ((cl_bitfield)1 << 2)
+#define CL_MEM_OBJECT_BUFFER 0x10F0u
 #define CL_MEM_USE_HOST_PTR  ((cl_bitfield)1 << 3)
 #define CL_MEM_COPY_HOST_PTR ((cl_bitfield)1 << 5)
 

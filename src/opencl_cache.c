@@ -113,6 +113,16 @@ static void file_name(char *name, const char *key, size_t key_size)
 	snprintf(name, NAME_SIZE, "%016llx%016llx" SUFFIX, (unsigned long long)h.high, (unsigned long long)h.low);
 }
 
+/* Where the name of a file of the cache goes on behind what file_name makes, NULL for one that is somebody else's: the
+ * folder may be one that is shared. */
+static const char *own_suffix(const char *name)
+{
+	enum { DIGITS = 32 };
+	if (strspn(name, "0123456789abcdef") != DIGITS || strncmp(name + DIGITS, SUFFIX, strlen(SUFFIX)) != 0)
+		return NULL;
+	return name + DIGITS + strlen(SUFFIX);
+}
+
 static int ends_with(const char *name, const char *end)
 {
 	const size_t n = strlen(name), m = strlen(end);
@@ -257,8 +267,9 @@ static kept *list_files(int dir, size_t *count)
 	rewinddir(entries);
 	while ((e = readdir(entries)) != NULL) {
 		struct stat s;
-		const int temporary = ends_with(e->d_name, SUFFIX) == 0 && ends_with(e->d_name, TEMPORARY_SUFFIX);
-		if ((!temporary && !ends_with(e->d_name, SUFFIX)) ||
+		const char *const suffix = own_suffix(e->d_name);
+		const int temporary = suffix && *suffix == '.' && ends_with(suffix, TEMPORARY_SUFFIX);
+		if (!suffix || (*suffix && !temporary) ||
 		    fstatat(dir, e->d_name, &s, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(s.st_mode))
 			continue;
 		if (temporary) {
@@ -266,8 +277,6 @@ static kept *list_files(int dir, size_t *count)
 				unlinkat(dir, e->d_name, 0);
 			continue;
 		}
-		if (strlen(e->d_name) >= NAME_SIZE)
-			continue;
 		if (*count == room) {
 			kept *const longer = realloc(list, (2 * room + 16) * sizeof *list);
 			if (!longer)

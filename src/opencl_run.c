@@ -277,10 +277,13 @@ static lobe_status check_buffer(const lobe_cl_device *device, cl_mem mem, const 
 {
 	size_t size = 0;
 	cl_context context = NULL;
+	cl_uint type = CL_MEM_OBJECT_BUFFER;
 	cl_int error = device->cl->clGetMemObjectInfo(mem, CL_MEM_SIZE, sizeof size, &size, NULL);
 	if (error == CL_SUCCESS)
 		error = device->cl->clGetMemObjectInfo(mem, CL_MEM_CONTEXT, sizeof context, &context, NULL);
-	if (error == CL_INVALID_MEM_OBJECT)
+	if (error == CL_SUCCESS)
+		error = device->cl->clGetMemObjectInfo(mem, CL_MEM_TYPE, sizeof type, &type, NULL);
+	if (error == CL_INVALID_MEM_OBJECT || (error == CL_SUCCESS && type != CL_MEM_OBJECT_BUFFER))
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "batch->%s is not an OpenCL buffer", name);
 	if (error != CL_SUCCESS)
 		return lobe_cl_fail("clGetMemObjectInfo", error);

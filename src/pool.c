@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "pool.h"
+#include "thread.h"
 
 struct lobe_pool {
 	pthread_mutex_t lock;
@@ -79,7 +80,7 @@ lobe_pool *lobe_pool_create(size_t threads)
 		return NULL;
 	}
 	for (size_t i = 1; i < threads; i++) {
-		if (pthread_create(&pool->workers[pool->worker_count], NULL, worker, pool) != 0) {
+		if (lobe_thread_create(&pool->workers[pool->worker_count], worker, pool) != 0) {
 			lobe_pool_destroy(pool);
 			return NULL;
 		}

@@ -1,5 +1,7 @@
 /* test_batch.c - batches: what they do, and what they refuse and how they say so. */
 #define _POSIX_C_SOURCE 200809L
+#include <fenv.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -308,10 +310,42 @@ static void test_many_elements_of_one_material(void)
 	free(material);
 }
 
+/* A caller that rounds upwards gets what every other gets, on each of the threads. */
+static void test_rounding_of_the_caller(void)
+{
+	enum { N = 200000 };
+	const lobe_bsdf one = lobe_bsdf_from_ggx_conductor(
+		lobe_ggx_conductor_make(0.3f, 0.1f, lobe_metal_eta(LOBE_METAL_GOLD), lobe_metal_k(LOBE_METAL_GOLD)));
+	static float x[N], z[N], pdf[2][N];
+	lobe_device *d;
+	lobe_scene *s;
+	for (size_t i = 0; i < N; i++) {
+		z[i] = ((float)i + 0.5f) / N;
+		x[i] = sqrtf(1.0f - z[i] * z[i]);
+	}
+	TEST_ASSERT_EQUAL(LOBE_OK, lobe_device_open(&d, "native:2"));
+	TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, lobe_scene_create(&s, d, &one, 1), lobe_error_message());
+	for (int up = 0; up < 2; up++) {
+		static float zero[N];
+		const lobe_batch b = {.count = N, .wo = {x, zero, z}, .wi = {zero, x, z}, .pdf = pdf[up]};
+		if (up)
+			TEST_ASSERT_EQUAL(0, fesetround(FE_UPWARD));
+		const lobe_status status = lobe_scene_eval(s, &b);
+		const int kept = fegetround() == (up ? FE_UPWARD : FE_TONEAREST);
+		fesetround(FE_TONEAREST);
+		TEST_ASSERT_EQUAL(LOBE_OK, status);
+		TEST_ASSERT_TRUE(kept);
+	}
+	TEST_ASSERT_EQUAL_MEMORY(pdf[0], pdf[1], sizeof pdf[0]);
+	lobe_scene_destroy(s);
+	lobe_device_close(d);
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
 	RUN_TEST(test_many_elements_of_one_material);
+	RUN_TEST(test_rounding_of_the_caller);
 	RUN_TEST(test_null_arguments);
 	RUN_TEST(test_zero_count);
 	RUN_TEST(test_absurd_count);

@@ -113,16 +113,25 @@ static void test_bound(void)
 {
 	enum { SIZE = 10000000 };
 	char *const big = calloc(SIZE, 1);
-	char name[2] = "0", path[PATH], left[PATH + 64];
+	static const char hash[] = "0123456789abcdef0123456789abcdef";
+	/* Somebody else's: a download, and files of stranger names. */
+	static const char *const foreign[] = {"holiday.mp4.part", "walls.lobe", "x.lobe.1.part"};
+	char name[2] = "0", left[PATH + 96], stranger[PATH + 64];
 	size_t size;
 	TEST_ASSERT_NOT_NULL(big);
 	empty_folder();
 	/* What a writer left that was killed yesterday, and one that writes now. */
 	for (int i = 0; i < 2; i++) {
 		const struct timespec old[2] = {{time(NULL) - (i ? 0 : 86400), 0}, {time(NULL) - (i ? 0 : 86400), 0}};
-		snprintf(left, sizeof left, "%s/%d.part", folder, i);
+		snprintf(left, sizeof left, "%s/%s.lobe.%d.0.part", folder, hash, i);
 		write_file(left, "x", 1);
 		TEST_ASSERT_EQUAL(0, utimensat(AT_FDCWD, left, old, 0));
+	}
+	for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
+		const struct timespec old[2] = {{time(NULL) - 86400, 0}, {time(NULL) - 86400, 0}};
+		snprintf(stranger, sizeof stranger, "%s/%s", folder, foreign[i]);
+		write_file(stranger, "x", 1);
+		TEST_ASSERT_EQUAL(0, utimensat(AT_FDCWD, stranger, old, 0));
 	}
 	for (int i = 0; i < 10; i++) {
 		const struct timespec moment = {0, 20000000}; /* file times have the grain of the kernel's clock */
@@ -139,11 +148,14 @@ static void test_bound(void)
 		TEST_ASSERT_EQUAL_MESSAGE(i == 1 || i >= 5, got != NULL, name);
 		free(got);
 	}
+	for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
+		snprintf(stranger, sizeof stranger, "%s/%s", folder, foreign[i]);
+		TEST_ASSERT_EQUAL_MESSAGE(0, remove(stranger), foreign[i]);
+	}
 	TEST_ASSERT_EQUAL(6 + 1, files(NULL));
 	TEST_ASSERT_EQUAL(0, access(left, F_OK));
 	TEST_ASSERT_EQUAL(0, remove(left));
 	empty_folder();
-	(void)path;
 }
 
 /* A folder that cannot be written can be read. As root, which may write anywhere, only the reading is tested. */

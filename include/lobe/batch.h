@@ -12,7 +12,9 @@
  * device halfway, out of memory say, are unspecified.)
  *
  * Threads: a device and the scenes made from it may be used from several threads; calls on one device take turns.
- * Distinct devices are independent. Closing or destroying something in use is the caller's mistake. */
+ * Distinct devices are independent. Closing or destroying something in use is the caller's mistake. The library's own
+ * threads take no signals. A child after fork has none of them: it may not use or close its parent's devices, and
+ * whether it may open an OpenCL one is for the OpenCL runtime to say. */
 #ifndef LOBE_BATCH_H
 #define LOBE_BATCH_H
 
