@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -221,6 +222,13 @@ static int write_all(int file, const void *from, size_t size)
 	return 1;
 }
 
+/* Whether the process may write files of that size: one that tries to write more is sent a signal that ends it. */
+static int is_allowed(uint64_t size)
+{
+	struct rlimit limit;
+	return getrlimit(RLIMIT_FSIZE, &limit) == 0 && (limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur);
+}
+
 /* A new file whose name is not taken. */
 static int open_temporary(int dir, const char *name, char *temporary)
 {
@@ -313,7 +321,7 @@ void lobe_cl_cache_put(const char *key, size_t key_size, const void *data, size_
 {
 	char name[NAME_SIZE], temporary[2 * NAME_SIZE];
 	header h;
-	const int dir = open_folder(1);
+	const int dir = is_allowed(sizeof h + key_size + size) ? open_folder(1) : -1;
 	if (dir < 0)
 		return;
 	memset(&h, 0, sizeof h);

@@ -272,9 +272,12 @@ lobe_status lobe_cl_run(lobe_scene *scene, const lobe_job *job)
 
 /* --- batches of device buffers --- */
 
-/* That mem, the field of that name, holds count elements and belongs to the device's context. */
-static lobe_status check_buffer(const lobe_cl_device *device, cl_mem mem, const char *name, size_t count)
+/* That mem, the field of that name, holds count elements, belongs to the device's context, and was not made for what
+ * the flag forbids: CL_MEM_WRITE_ONLY or CL_MEM_READ_ONLY, of which OpenCL leaves undefined what becomes of it. */
+static lobe_status check_buffer(const lobe_cl_device *device, cl_mem mem, const char *name, size_t count,
+				cl_bitfield forbidden)
 {
+	cl_bitfield flags = 0;
 	size_t size = 0;
 	cl_context context = NULL;
 	cl_uint type = CL_MEM_OBJECT_BUFFER;
@@ -283,6 +286,8 @@ static lobe_status check_buffer(const lobe_cl_device *device, cl_mem mem, const 
 		error = device->cl->clGetMemObjectInfo(mem, CL_MEM_CONTEXT, sizeof context, &context, NULL);
 	if (error == CL_SUCCESS)
 		error = device->cl->clGetMemObjectInfo(mem, CL_MEM_TYPE, sizeof type, &type, NULL);
+	if (error == CL_SUCCESS)
+		error = device->cl->clGetMemObjectInfo(mem, CL_MEM_FLAGS, sizeof flags, &flags, NULL);
 	if (error == CL_INVALID_MEM_OBJECT || (error == CL_SUCCESS && type != CL_MEM_OBJECT_BUFFER))
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "batch->%s is not an OpenCL buffer", name);
 	if (error != CL_SUCCESS)
@@ -292,6 +297,10 @@ static lobe_status check_buffer(const lobe_cl_device *device, cl_mem mem, const 
 	if (size / 4 < count)
 		return lobe_fail(LOBE_ERROR_ARGUMENT, "batch->%s holds %lu bytes, too few for %lu elements", name,
 				 (unsigned long)size, (unsigned long)count);
+	if (flags & forbidden)
+		return lobe_fail(LOBE_ERROR_ARGUMENT, "batch->%s was made with %s", name,
+				 forbidden == CL_MEM_READ_ONLY ? "CL_MEM_READ_ONLY, and is written"
+							       : "CL_MEM_WRITE_ONLY, and is read");
 	return LOBE_OK;
 }
 
@@ -302,17 +311,18 @@ static lobe_status take_buffers(lobe_cl_shading *b, const lobe_job *job)
 	for (i = 0; i < LOBE_IN_COUNT && status == LOBE_OK; i++) {
 		b->in[i] = (cl_mem)(void *)at(job->in[i], 0);
 		status = check_buffer(b->device, b->in[i],
-				      lobe_array_name(lobe_verb_is_sample(b->verb), LOBE_OUT_COUNT + i), job->count);
+				      lobe_array_name(lobe_verb_is_sample(b->verb), LOBE_OUT_COUNT + i), job->count,
+				      CL_MEM_WRITE_ONLY);
 	}
 	if (job->material && status == LOBE_OK) {
 		b->material = (cl_mem)(void *)at(job->material, 0);
-		status = check_buffer(b->device, b->material, "material", job->count);
+		status = check_buffer(b->device, b->material, "material", job->count, CL_MEM_WRITE_ONLY);
 	}
 	for (i = 0; i < LOBE_OUT_COUNT && status == LOBE_OK; i++) {
 		if (b->wanted[i]) {
 			b->out[i] = (cl_mem)job->out[i];
 			status = check_buffer(b->device, b->out[i], lobe_array_name(lobe_verb_is_sample(b->verb), i),
-					      job->count);
+					      job->count, CL_MEM_READ_ONLY);
 		}
 	}
 	return status;

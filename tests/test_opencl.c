@@ -246,6 +246,18 @@ static void test_buffer_refusals(void)
 	batch.count = N + 1;
 	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval_cl(scene, &batch), "too few");
 
+	/* Buffers of which kernels may not do what they would. */
+	cl_mem written = cl->clCreateBuffer(context, CL_MEM_WRITE_ONLY, N * 4, NULL, &error);
+	cl_mem read = cl->clCreateBuffer(context, CL_MEM_READ_ONLY, N * 4, NULL, &error);
+	batch = cl_batch(&b);
+	batch.wi[2] = written;
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval_cl(scene, &batch), "wi[2] was made with CL_MEM_WRITE_ONLY");
+	batch = cl_batch(&b);
+	batch.f[1] = read;
+	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval_cl(scene, &batch), "f[1] was made with CL_MEM_READ_ONLY");
+	cl->clReleaseMemObject(written);
+	cl->clReleaseMemObject(read);
+
 	/* Indices are on the device: one out of range is found when they are read back to sort. */
 	const uint32_t bad = 1000000;
 	batch = cl_batch(&b);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -171,6 +172,22 @@ static void test_read_only_folder(void)
 	empty_folder();
 }
 
+/* A process that may not write files of that size is sent no signal for trying. */
+static void test_size_limit(void)
+{
+	struct rlimit before, small;
+	char path[PATH];
+	empty_folder();
+	TEST_ASSERT_EQUAL(0, getrlimit(RLIMIT_FSIZE, &before));
+	small = before;
+	small.rlim_cur = sizeof data;
+	TEST_ASSERT_EQUAL(0, setrlimit(RLIMIT_FSIZE, &small));
+	lobe_cl_cache_put(key, strlen(key), data, sizeof data);
+	TEST_ASSERT_EQUAL(0, setrlimit(RLIMIT_FSIZE, &before));
+	TEST_ASSERT_EQUAL(0, files(path));
+	put_one(path);
+}
+
 /* LOBE_CACHE_DIR, else XDG_CACHE_HOME, else HOME; folders are made, for their user alone. */
 static void test_where(void)
 {
@@ -209,6 +226,7 @@ int main(void)
 	RUN_TEST(test_strange_files);
 	RUN_TEST(test_bound);
 	RUN_TEST(test_read_only_folder);
+	RUN_TEST(test_size_limit);
 	RUN_TEST(test_where);
 	free(content);
 	remove_all(ours);

@@ -127,6 +127,10 @@ static void test_who_is_unbeaten(void)
 	double share;
 	TEST_ASSERT_EQUAL_INT(LOBE_STRATEGY_VISIBLE, rank_most(&m, SAMPLES, FOLLOWING, &share));
 	TEST_ASSERT_EQUAL_DOUBLE(75.0, share);
+	/* Who may choose by roughness takes V-cavity where it is better, if that is all there is of that roughness. */
+	TEST_ASSERT_EQUAL_DOUBLE(75.0, rank_most_by_view(&m, SAMPLES, FOLLOWING));
+	cell[1].alpha = 1;
+	TEST_ASSERT_EQUAL_DOUBLE(100.0, rank_most_by_view(&m, SAMPLES, FOLLOWING));
 	const rank_defeat d = rank_defeat_of(&m, LOBE_STRATEGY_VISIBLE, SAMPLES, BLIND, -1, -1);
 	TEST_ASSERT_EQUAL_UINT(2, d.cells);
 	TEST_ASSERT_EQUAL_DOUBLE(10.0, d.worst);

@@ -87,7 +87,11 @@ static void write_readme(report_page *page, const rank_map *m)
 		else
 			report_readme(page, "| %s | | | %.0f %% |\n", strategies_name(k), blind);
 	}
-	report_readme(page, "\n");
+	report_readme(
+		page,
+		"| *the best for each material, roughness and view, by hindsight* | %.0f %% | %.0f %% | %.0f %% |\n\n",
+		rank_most_by_view(m, SAMPLES, FOLLOWING), rank_most_by_view(m, TIME, FOLLOWING),
+		rank_most_by_view(m, SAMPLES, BLIND));
 }
 
 static void write_shares(report_page *page, const rank_map *m)
@@ -141,6 +145,12 @@ static void write_shares(report_page *page, const rank_map *m)
 		"| bounded cap of GGX, visible normals of Beckmann | %.1f %% | %.1f %% | | | | %.1f %% | %.1f %% |\n",
 		mixed_share(m, SAMPLES, FOLLOWING), mixed_share(m, TIME, FOLLOWING), mixed_share(m, SAMPLES, BLIND),
 		mixed_share(m, TIME, BLIND));
+	report_text(
+		page,
+		"| the best for each material, roughness and view, by hindsight | %.1f %% | %.1f %% | | | | %.1f %% | "
+		"%.1f %% |\n",
+		rank_most_by_view(m, SAMPLES, FOLLOWING), rank_most_by_view(m, TIME, FOLLOWING),
+		rank_most_by_view(m, SAMPLES, BLIND), rank_most_by_view(m, TIME, BLIND));
 }
 
 /* Rows by rival. */
@@ -261,6 +271,7 @@ static void write_findings(report_page *page, const rank_map *m)
 	const double blind = rank_share_of(m, LOBE_STRATEGY_VISIBLE, SAMPLES, BLIND, -1).all;
 	const double bound[MEASURES] = {most_by_distribution(m, SAMPLES, FOLLOWING),
 					most_by_distribution(m, TIME, FOLLOWING)};
+	const double by_view = rank_most_by_view(m, SAMPLES, FOLLOWING);
 	const rank_defeat d = rank_defeat_of(m, LOBE_STRATEGY_VISIBLE, SAMPLES, FOLLOWING, -1, -1);
 	report_finding(page,
 		       "Among strategies that follow the lobe, visible normals (the default) are at least as efficient "
@@ -274,14 +285,16 @@ static void write_findings(report_page *page, const rank_map *m)
 		       mixed_share(m, SAMPLES, FOLLOWING), mixed_share(m, TIME, FOLLOWING));
 	report_finding(
 		page,
-		"The most that any one strategy that follows the lobe reaches is %.0f %% (%s), and that a choice by "
-		"distribution reaches %.0f %% (same time %.0f %%): %d %% is %s reach of a choice that does not know "
-		"the "
-		"light. With uniform and cosine sampling, which find a small light beside the highlight less seldom, "
-		"%.0f "
-		"%% (%s; visible normals %.0f %%): there ask the light, or `lobe_recommend_strategy`",
-		share[FOLLOWING], strategies_name(most[FOLLOWING]), bound[SAMPLES], bound[TIME], WANTED,
-		bound[SAMPLES] >= WANTED ? "in" : "out of", share[BLIND], strategies_name(most[BLIND]), blind);
+		"The most that any one strategy that follows the lobe reaches is %.0f %% (%s), a choice by "
+		"distribution "
+		"%.0f %% (same time %.0f %%), and the best that knows material, roughness and view %.1f %%: %d %% is "
+		"%s "
+		"reach of a choice that does not know the light. With uniform and cosine sampling, which find a small "
+		"light beside the highlight less seldom, %.0f %% (%s; visible normals %.0f %%): there ask the light, "
+		"or "
+		"`lobe_recommend_strategy`",
+		share[FOLLOWING], strategies_name(most[FOLLOWING]), bound[SAMPLES], bound[TIME], by_view, WANTED,
+		by_view >= WANTED ? "in" : "out of", share[BLIND], strategies_name(most[BLIND]), blind);
 	const exchange e = exchange_of(m);
 	report_finding(page,
 		       "Of GGX, `LOBE_STRATEGY_BOUNDED_CAP` in the default's place: variance lower by more than 2 %% "

@@ -214,6 +214,29 @@ int rank_most(const rank_map *m, int measure, int among, double *share)
 	return most;
 }
 
+double rank_most_by_view(const rank_map *m, int measure, int among)
+{
+	enum { GRID = 16 };
+	size_t good[STRATEGIES_MATERIALS][GRID][GRID][STRATEGIES_LOBE], sum = 0, cells = 0;
+	memset(good, 0, sizeof good);
+	for (size_t i = 0; i < m->count; i++) {
+		const rank_cell *c = &m->cell[i];
+		size_t *const here = good[c->material][c->alpha % GRID][c->cosine % GRID];
+		for (int k = 0; k < STRATEGIES_LOBE && !rank_dark(c); k++)
+			here[k] += rank_is_among(k, among) && rank_unbeaten(m, c, k, measure, among);
+		cells += !rank_dark(c);
+	}
+	for (int material = 0; material < STRATEGIES_MATERIALS; material++)
+		for (int view = 0; view < GRID * GRID; view++) {
+			const size_t *const here = good[material][view / GRID][view % GRID];
+			size_t most = 0;
+			for (int k = 0; k < STRATEGIES_LOBE; k++)
+				most = here[k] > most ? here[k] : most;
+			sum += most;
+		}
+	return 100.0 * (double)sum / fmax((double)cells, 1.0);
+}
+
 static int ascending(const void *a, const void *b)
 {
 	const double x = *(const double *)a, y = *(const double *)b;

@@ -88,6 +88,10 @@ rank_share rank_share_of(const rank_map *m, int k, int measure, int among, int n
 /* The strategy of those that is unbeaten in most cells: no fixed one of them does better than its share. */
 int rank_most(const rank_map *m, int measure, int among, double *share);
 
+/* The share that the best choice by material, roughness and view cosine reaches: what no choice that is blind to the
+ * light can surpass. In percent. */
+double rank_most_by_view(const rank_map *m, int measure, int among);
+
 double rank_quantile(double *values, size_t n, double q);
 
 /* STRATEGIES_* of what is recommended. */
