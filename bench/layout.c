@@ -54,6 +54,7 @@ static int struct_rows(FILE *csv, const bench_device *d, int lobe, const bench_a
 {
 	bench_shading shading[2];
 	bench_racer racer[2];
+	memset(shading, 0, sizeof shading);
 	int ok = bench_scene_create(&shading[0].scene, d->device, lobe) == LOBE_OK;
 	if (!ok)
 		return 0;

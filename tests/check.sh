@@ -16,10 +16,13 @@ analyze() {
 	done
 }
 
-# Style findings are left out: a shading function that is unused in one file is not a fault.
+# Style findings are left out: a shading function that is unused in one file is not a fault. It loses count of lobes.def,
+# so that arrays over the lobes have no elements for it, and asks for a double build of what is never another.
 inspect() {
 	cppcheck --quiet --std=c99 --enable=warning,portability,performance --inline-suppr --error-exitcode=1 \
-		--suppress=missingIncludeSystem -DLOBE_X86 -DLOBE_ROW=ggx_dielectric -DLOBE_ROW_ISA=test -UPARAMS \
+		--suppress=missingIncludeSystem --suppress=zerodiv:bench/report/stability_sweep.c \
+		--suppress=uninitvar:bench/report/stability_errors.c \
+		--suppress=preprocessorErrorDirective:bench/report/approximations_double.c -DLOBE_X86 -DLOBE_ROW=ggx_dielectric -DLOBE_ROW_ISA=test -UPARAMS \
 		-Iinclude -Isrc src cl/embed.c examples bench
 }
 

@@ -164,7 +164,7 @@ static void test_composition(void)
 		const double M[3][3] = {{2.0 + (double)p[6], (double)p[7], 0.0},
 					{(double)p[8], 2.0 + (double)p[9], 0.0},
 					{(double)p[10], (double)p[11], 1.5 + (double)p[12]}};
-		double h[3], back[3], len2 = 0.0;
+		double h[3], back[3];
 		const lobe_vec3 d = lobe_linear_direction(outer, v);
 		const double dv[3] = {(double)d.x, (double)d.y, (double)d.z};
 		for (int k = 0; k < 3; k++) {
@@ -173,7 +173,6 @@ static void test_composition(void)
 				h[k] += M[l][k] * (double)w[l];
 				back[k] += M[k][l] * dv[l];
 			}
-			len2 += h[k] * h[k];
 		}
 		/* M d = w times a number, here zz. */
 		for (int k = 0; k < 3; k++)

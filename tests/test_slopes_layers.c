@@ -61,7 +61,7 @@ static void test_layers(void)
 		 central_differ(s, t.mean_x, t.mean_y, t.var_x + 0.045, t.var_y + 0.005, t.cov), 1e-15);
 	const lobe_slope_stats flat = lobe_slope_central((lobe_slope_moments){1.1, 0.0, 1.2099999, 0.0, 0.0});
 	TEST_ASSERT_TRUE(flat.var_x == 0.0);
-	TEST_ASSERT_TRUE(isnan(lobe_slope_central((lobe_slope_moments){NAN, 0, 1, 1, 0}).var_x));
+	TEST_ASSERT_TRUE(isnan(lobe_slope_central((lobe_slope_moments){(double)NAN, 0, 1, 1, 0}).var_x));
 }
 
 /* From heights to the microsurface and back: A A^T = 2 Cov. */

@@ -30,7 +30,7 @@ static void run_loop(const approximations_way *way, const approximations_set *p,
 
 static float one(const approximations_way *way, const approximations_set *p, float x, float y, float z)
 {
-	float r;
+	float r = 0.0f;
 	run_loop(way, p, 1, &x, &y, &z, &z, &z, &r, &r, &r);
 	return r;
 }
@@ -120,7 +120,7 @@ static void masking(approximations_group group, double alpha, int quick, report_
 										   : 1.0 / (1.0 + lo + li);
 					const float x[5] = {(float)oz, (float)so, (float)iz, (float)in[0],
 							    (float)in[1]};
-					float r;
+					float r = 0.0f;
 					run_loop(way, &p, 1, x, x + 1, x + 2, x + 3, x + 4, &r, &r, &r);
 					approximations_error_add(&e, (double)r, exact, "cos %.3g %.3g; phi %.0f", oz,
 								 iz, phi * 57.29577951);
@@ -135,7 +135,7 @@ static void masking(approximations_group group, double alpha, int quick, report_
 				albedo_nodes *nodes =
 					albedo_nodes_make(LOBE_NDF_GGX, NULL, alpha, albedo_cosines[m], sides[level]);
 				for (size_t i = 0; i < nodes->n; i++) {
-					float r;
+					float r = 0.0f;
 					run_loop(way, &p, 1, &nodes->oz, &nodes->ox, nodes->iz + i, nodes->ix + i,
 						 nodes->iy + i, &r, &r, &r);
 					off[level] +=

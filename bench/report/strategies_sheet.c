@@ -167,7 +167,7 @@ static void write_sheet(report_page *page, const report_table *reference, const 
 	double mean = 0.0, n = 0.0, off = 0.0, median[STRATEGIES_TECHNIQUES];
 	sheet_seeds seeds[STRATEGIES_TECHNIQUES];
 	double independent[STRATEGIES_TECHNIQUES];
-	int best = 0, next = -1, calm = 0, sure = 0;
+	int best = 0, calm = 0, sure = 0;
 	for (int i = 0; i < truth.width * truth.height; i++) {
 		n += truth.value[i] > 0.0;
 		mean += truth.value[i];
@@ -223,9 +223,9 @@ static void write_sheet(report_page *page, const report_table *reference, const 
 			      "Balls of gold under *%s*, each technique for the same "
 			      "time:\n\n![](doc/strategies_pictures1.png)\n\n",
 			      light);
+	int next = best == 0;
 	for (int t = 0; t < STRATEGIES_TECHNIQUES; t++)
-		if (t != best && (next < 0 || seeds[t].quartile[1] < seeds[next].quartile[1]))
-			next = t;
+		next = t != best && seeds[t].quartile[1] < seeds[next].quartile[1] ? t : next;
 	report_finding(page,
 		       "Three gold balls under %s in equal time, RMS error over the mean: of scrambled samples, median "
 		       "of seeds, %s "
