@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "strides.h"
+#include "strides_vectors.h"
 
 /* An array of the job as a caller knows it. */
 typedef struct {
@@ -65,14 +66,13 @@ lobe_status lobe_check_arrays(const lobe_job *job, int sample, const char *call)
 
 /* --- packing ----------------------------------------------------------------------------------------------------- */
 
-typedef lobe_word word;
-#define WORD(array, stride, i) (*(word *)(void *)((unsigned char *)(array) + (stride) * (i)))
+static int side_by_side(const word *x, const word *y, const word *z) { return y == x + 1 && z == x + 2; }
 
 /* Three arrays at a time, mostly the components of one vector: a third faster than one by one. */
 static void pack_3(word *restrict x, word *restrict y, word *restrict z, word *restrict fx, word *restrict fy,
 		   word *restrict fz, size_t stride, size_t n)
 {
-	for (size_t i = 0; i < n; i++) {
+	for (size_t i = side_by_side(fx, fy, fz) ? pack_vectors(x, y, z, fx, stride, n) : 0; i < n; i++) {
 		x[i] = WORD(fx, stride, i);
 		y[i] = WORD(fy, stride, i);
 		z[i] = WORD(fz, stride, i);
@@ -82,7 +82,7 @@ static void pack_3(word *restrict x, word *restrict y, word *restrict z, word *r
 static void unpack_3(word *restrict tx, word *restrict ty, word *restrict tz, const word *restrict x,
 		     const word *restrict y, const word *restrict z, size_t stride, size_t n)
 {
-	for (size_t i = 0; i < n; i++) {
+	for (size_t i = side_by_side(tx, ty, tz) ? unpack_vectors(tx, x, y, z, stride, n) : 0; i < n; i++) {
 		WORD(tx, stride, i) = x[i];
 		WORD(ty, stride, i) = y[i];
 		WORD(tz, stride, i) = z[i];

@@ -1,8 +1,10 @@
 /* test_strides.c - batches in arrays of structs: the bits of packed ones, nothing else touched, overlap decided
  * exactly. */
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "batch_fixture.h"
 #include "cl_faults.h"
@@ -215,6 +217,46 @@ static void test_long_arrays_of_structs_opencl(void)
 	lobe_device_close(d);
 }
 
+/* Structs of vectors alone that end where the memory ends: not a byte behind them is touched. */
+static void test_structs_at_the_end_of_memory(void)
+{
+	typedef struct {
+		float wo[3], wi[3], f[3];
+	} hit_of_vectors;
+	enum { MOST = 21 };
+	const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+	char *const memory = mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+	TEST_ASSERT_TRUE(memory != MAP_FAILED);
+	TEST_ASSERT_EQUAL(0, mprotect(memory + page, page, PROT_NONE));
+	for (size_t n = 1; n <= MOST; n++) {
+		hit_of_vectors *const h = (hit_of_vectors *)(void *)(memory + page) - n;
+		lobe_batch packed = good_batch(), b;
+		memset(&b, 0, sizeof b);
+		b.count = packed.count = n;
+		b.stride.wo = b.stride.wi = b.stride.f = sizeof *h;
+		for (int k = 0; k < 3; k++) {
+			for (size_t i = 0; i < n; i++) {
+				h[i].wo[k] = fixture.in[k][i];
+				h[i].wi[k] = fixture.in[3 + k][i];
+			}
+			b.wo[k] = &h->wo[k];
+			b.wi[k] = &h->wi[k];
+			b.f[k] = &h->f[k];
+		}
+		packed.material = NULL;
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, eval(&packed), lobe_error_message());
+		TEST_ASSERT_EQUAL_MESSAGE(LOBE_OK, eval(&b), lobe_error_message());
+		for (size_t i = 0; i < n; i++)
+			for (int k = 0; k < 3; k++) {
+				TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.out[k][i]),
+							test_float_bits(h[i].f[k]));
+				TEST_ASSERT_EQUAL_HEX32(test_float_bits(fixture.in[3 + k][i]),
+							test_float_bits(h[i].wi[k]));
+			}
+	}
+	TEST_ASSERT_EQUAL(0, munmap(memory, 2 * page));
+}
+
 static void test_bad_strides(void)
 {
 	lobe_batch b = struct_batch();
@@ -286,6 +328,7 @@ int main(void)
 	RUN_TEST(test_arrays_of_structs_opencl);
 	RUN_TEST(test_long_arrays_of_structs);
 	RUN_TEST(test_long_arrays_of_structs_opencl);
+	RUN_TEST(test_structs_at_the_end_of_memory);
 	RUN_TEST(test_bad_strides);
 	RUN_TEST(test_overlap_of_strided);
 	return UNITY_END();
