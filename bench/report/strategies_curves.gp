@@ -3,7 +3,7 @@ load "strategies_names.gp"
 load "strategies_titles.gp"
 set terminal pngcairo size 1500, 1150 noenhanced font "sans,10"
 set output "strategies_curves.png"
-array COLOUR[14] = ["#3b6fb6", "#8c8c8c", "#c7c7c7", "#e08f2c", "#6fa8dc", "#9fc5e8", "#a9c9d9", "#1b3a70", "#b5651d", "#f2c879", "#d62728", "#2ca02c", "#98df8a", "#1f6b2e"]
+array COLOUR[14] = ["#3b6fb6", "#8c8c8c", "#c7c7c7", "#e08f2c", "#7b5ea7", "#1aa6a6", "#d88fc4", "#1b3a70", "#b5651d", "#f2c879", "#d62728", "#2ca02c", "#98df8a", "#1f6b2e"]
 set multiplot layout 2, 2 title "error against time" font "sans,13"
 unset xrange
 unset yrange
@@ -26,6 +26,8 @@ do for [k = 1:4] {
 	x0 = STATS_min_x
 	y0 = STATS_max_y
 	plot y0 * 2 * (x / x0) ** -0.5 with lines lc rgb "gray60" lw 4 title "slope -1/2", \
+		NaN with lines dt 3 lc rgb "gray30" title "dotted: independent", \
+		NaN with linespoints pt 7 ps 0.5 lc rgb "gray30" title "points: scrambled", \
 		for [t = 1:14] "strategies_curves.dat" index first + 2 * (t - 1) using 1:2 with lines dt 3 lw 1 lc rgb COLOUR[t] notitle, \
 		for [t = 1:14] "strategies_curves.dat" index first + 2 * (t - 1) + 1 using 1:2 with linespoints pt 7 ps 0.5 lw (t == 1 || t > 10 ? 2.5 : 1.5) lc rgb COLOUR[t] title NAMES[t]
 }
