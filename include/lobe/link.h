@@ -8,7 +8,8 @@
  *
  * All else stays as it is: the other files include lobe.h and see every lobe. On a native device a scene with a lobe
  * that was left out is a LOBE_ERROR_PARAMETER that names it. Without this file a program gets all loops. The shared
- * library always has them all, and a library built with LOBE_NATIVE=0 none.
+ * library always has them all: a program with this file does not link with it, so name the other, as by
+ * -l:liblobe.a. A library built with LOBE_NATIVE=0 has none.
  *
  * How: the library finds its loops through the list lobe_linked, which stands alone in one of its objects. A program
  * that brings a list of its own keeps the linker from taking that object, and so all that only it refers to. */
