@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "cases.h"
 #include "double.h"
 #include "lobe/shading.h"
 #include "measured.h"
@@ -14,7 +15,8 @@ void tearDown(void) { TEST_ASSERT_EQUAL_STRING("", measured_outside()); }
 
 enum { DRAWS = 5000 };
 
-static const double glass[3] = {5e-4, 5e-4, 1000.0}; /* of ggx_dielectric */
+/* Of ggx_dielectric, all of which the double build reads: its transport too. */
+static const double glass[CASE_PARAMETERS] = {5e-4, 5e-4, 1000.0};
 
 static lobe_microfacet_dielectric any_glass(void)
 {
