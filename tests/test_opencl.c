@@ -248,7 +248,9 @@ static void test_buffer_refusals(void)
 
 	/* Buffers of which kernels may not do what they would. */
 	cl_mem written = cl->clCreateBuffer(context, CL_MEM_WRITE_ONLY, N * 4, NULL, &error);
+	TEST_ASSERT_EQUAL(CL_SUCCESS, error);
 	cl_mem read = cl->clCreateBuffer(context, CL_MEM_READ_ONLY, N * 4, NULL, &error);
+	TEST_ASSERT_EQUAL(CL_SUCCESS, error);
 	batch = cl_batch(&b);
 	batch.wi[2] = written;
 	assert_refused(LOBE_ERROR_ARGUMENT, lobe_scene_eval_cl(scene, &batch), "wi[2] was made with CL_MEM_WRITE_ONLY");

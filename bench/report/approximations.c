@@ -112,8 +112,7 @@ static void maskings(report_page *page, const approximations_summary *all, int n
 		       "On a GGX surface separable masking is up to %.3f of albedo off the height-correlated form at "
 		       "%.2f against %.2f ns; Schlick-Smith with k = alpha/2 is %.3f off at %.2f ns%s",
 		       separable->albedo, separable->ns[0], height->ns[0], karis->albedo, karis->ns[0],
-		       fabs(karis->albedo - separable->albedo) < 1e-3 ? " (at alpha 1, where the two are one; it is the "
-									"worse the smaller alpha is)"
+		       fabs(karis->albedo - separable->albedo) < 1e-3 ? " (both at alpha 1, where they are one function)"
 								      : "");
 }
 
@@ -235,7 +234,7 @@ static void reals(report_page *page, const approximations_summary *all, int n)
 static void precision(report_page *page, const report_table *rows, const report_table *times)
 {
 	double worst = 0.0, albedo = 0.0, product = 1.0, product_scalar = 1.0;
-	double rest = 1.0, rest_scalar = 1.0; /* of lobes that need no function of libm */
+	double rest = 1.0, rest_scalar = 1.0; /* without Beckmann's */
 	int n = 0, rests = 0;
 	const char *worst_case = "", *worst_what = "";
 	report_text(
@@ -289,7 +288,8 @@ static void precision(report_page *page, const report_table *rows, const report_
 		       "Single precision is within %.1e of double in 99.9 %% of ordinary calls of every lobe (worst: "
 		       "%s, %s), the "
 		       "albedo within %.1e; double takes %.1f times as long vectorised and %.1f times one by one "
-		       "(geometric means; without Beckmann's lobes, which in double call libm, %.1f and %.1f)",
+		       "(geometric means; without Beckmann's lobes, whose erf and its inverse double leaves to libm, %.1f and "
+		       "%.1f)",
 		       worst, worst_case, worst_what, albedo, pow(product, 1.0 / n), pow(product_scalar, 1.0 / n),
 		       pow(rest, 1.0 / fmax(rests, 1)), pow(rest_scalar, 1.0 / fmax(rests, 1)));
 }

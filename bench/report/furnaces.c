@@ -56,7 +56,8 @@ static void write_gains(report_page *page, const report_table *white)
 			page,
 			"No surface makes light beyond what its header says: of %zu white furnaces of %zu surfaces "
 			"none is above 1 by more than the quadrature's error (%.0e at worst) and, of "
-			"`microfacet_diffuse`, what fixed facets are off by; the brightest is %s. Of masking that is no surface's these do: %s",
+			"`microfacet_diffuse`, what fixed facets are off by; the brightest is %s. Of masking that is "
+			"no surface's these do: %s",
 			cells, surfaces, error, at, used ? makers : "none");
 }
 

@@ -139,8 +139,8 @@ void report_page_write(const report_page *page, int quick, int whole)
 	fprintf(to, "```\n");
 	bench_print_machine(to);
 	print_devices(to);
-	fprintf(to, "```\n\n## Findings\n\nEach figure is computed from the rows of its section. Words: a strategy *follows the lobe* if it draws facets or "
-		    "directions by the lobe, as uniform and cosine sampling do not; *told a shape*, "
+	fprintf(to, "```\n\n## Findings\n\nEach figure is computed from the rows of its section. Words: a strategy "
+		    "*follows the lobe* if it draws facets or directions by the lobe, as uniform and cosine sampling do not; *told a shape*, "
 		    "`lobe_recommend_strategy` knows of the light its `lobe_light_shape` alone, *asking*, it looks the "
 		    "light up in some directions; a *comparison lobe* (`microfacet_*`) chooses its parts at run time, "
 		    "production lobes have them built in; the *floor* of a result is what half an ulp of its inputs moves "

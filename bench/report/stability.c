@@ -192,8 +192,9 @@ static void write_forms(report_page *page, const report_table *t)
 		report_readme(page, "| %s | %.2g | %.2g | %.2g | %.2g |\n", stability_forms[f].name, worst[0], worst[1],
 			      worst[2], worst[3]);
 		if (used < sizeof text)
-			used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %.1g, %.1g (%.1g, %.1g)", used ? "; " : "",
-						 stability_forms[f].name, worst[0], worst[1], worst[2], worst[3]);
+			used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %.1g, %.1g (%.1g, %.1g)",
+						 used ? "; " : "", stability_forms[f].name, worst[0], worst[1],
+						 worst[2], worst[3]);
 	}
 	report_text(page, "\n");
 	report_readme(page, "\n![](doc/stability_forms.png)\n\n");
@@ -201,7 +202,10 @@ static void write_forms(report_page *page, const report_table *t)
 	report_figure(page, "stability_forms.png",
 		      "Worst relative error of the printed form and of the library's over what "
 		      "makes the printed one fail, with the mean floor.");
-	report_finding(page, "Printed forms in single precision, worst relative error and worst error over floor (the library's): %s.", text);
+	report_finding(page,
+		       "Printed forms in single precision, worst relative error and worst error over floor (the "
+		       "library's): %s.",
+		       text);
 }
 
 static void write(report_page *page, const report_table *const *tables, int quick)

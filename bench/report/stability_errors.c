@@ -199,8 +199,8 @@ void stability_write_errors(report_page *page, const report_table *t)
 	report_text(page, "\n");
 	report_finding(
 		page,
-		"Error over the conditioning floor: median at most %.2g and %.3g at the 99.99th percentile of %.3g results "
-		"against the textbook in long double, %.2g and %.3g of %.3g against the double build (films, "
+		"Error over the conditioning floor: median at most %.2g and %.3g at the 99.99th percentile of %.3g "
+		"results against the textbook in long double, %.2g and %.3g of %.3g against the double build (films, "
 		"comparison "
 		"lobes), reflectances counted in roundings of 1 (in roundings of themselves %.3g and %.3g). Above %d "
 		"floors "

@@ -69,8 +69,8 @@ static double mixed_share(const rank_map *m, int measure, int among)
 	return (ggx.all * ggx.cells + other.all * other.cells) / fmax(ggx.cells + other.cells, 1.0);
 }
 
-/* The share of cells in which the best of those that follow the lobe is at most 10 % more efficient than k. */
-static double nearly(const rank_map *m, int k, int measure)
+/* The share of cells in which k's loss is at most limit times that of the best of those that follow the lobe. */
+static double near_best(const rank_map *m, int k, int measure, double limit)
 {
 	double n = 0.0, cells = 0.0;
 	for (size_t i = 0; i < m->count; i++) {
@@ -78,7 +78,7 @@ static double nearly(const rank_map *m, int k, int measure)
 		if (rank_dark(c))
 			continue;
 		const int best = rank_best(m, c, measure, FOLLOWING);
-		n += rank_loss(m, c, k, measure) <= 1.1 * rank_loss(m, c, best, measure);
+		n += rank_loss(m, c, k, measure) / rank_loss(m, c, best, measure) <= limit;
 		cells++;
 	}
 	return 100.0 * n / fmax(cells, 1.0);
@@ -100,7 +100,7 @@ static void write_readme(report_page *page, const rank_map *m)
 		if (rank_is_among(k, FOLLOWING))
 			report_readme(page, "| %s | %.0f %% | %.0f %% | %.0f %% | %.0f %% |\n", strategies_name(k),
 				      rank_share_of(m, k, SAMPLES, FOLLOWING, -1).all,
-				      rank_share_of(m, k, TIME, FOLLOWING, -1).all, nearly(m, k, TIME), blind);
+				      rank_share_of(m, k, TIME, FOLLOWING, -1).all, near_best(m, k, TIME, 1.1), blind);
 		else
 			report_readme(page, "| %s | | | | %.0f %% |\n", strategies_name(k), blind);
 	}
@@ -203,23 +203,12 @@ static double harmless(const rank_map *m, int k)
  * 2. */
 static void write_behind(report_page *page, const rank_map *m, int k)
 {
-	double *behind = calloc(m->count + 1, sizeof *behind);
-	size_t n = 0;
-	if (!behind)
-		exit(1);
-	for (size_t i = 0; i < m->count; i++) {
-		const rank_cell *c = &m->cell[i];
-		if (!rank_dark(c))
-			behind[n++] = rank_loss(m, c, k, SAMPLES) /
-				      rank_loss(m, c, rank_best(m, c, SAMPLES, FOLLOWING), SAMPLES);
-	}
 	report_text(
 		page,
 		"%s: the best of them needs at least 1/1.1 of its samples in %.1f %% of the map, 1/1.25 in %.1f %%, "
 		"half in %.1f %%.\n\n",
-		strategies_name(k), rank_within(behind, n, 1.1), rank_within(behind, n, 1.25),
-		rank_within(behind, n, 2.0));
-	free(behind);
+		strategies_name(k), near_best(m, k, SAMPLES, 1.1), near_best(m, k, SAMPLES, 1.25),
+		near_best(m, k, SAMPLES, 2.0));
 }
 
 /* --- the bounded cap in the default's place ------------------------------------------------------------------------- */
@@ -298,7 +287,7 @@ static void write_findings(report_page *page, const rank_map *m)
 		       "%s %d %%; where not, by a factor of %.2f at the median. With the bounded cap for GGX: %.0f %% "
 		       "and %.0f "
 		       "%%, its bound as published",
-		       v.all, time, nearly(m, LOBE_STRATEGY_VISIBLE, TIME), v.all >= WANTED ? "at least" : "short of", WANTED, d.median,
+		       v.all, time, near_best(m, LOBE_STRATEGY_VISIBLE, TIME, 1.1), v.all >= WANTED ? "at least" : "short of", WANTED, d.median,
 		       mixed_share(m, SAMPLES, FOLLOWING), mixed_share(m, TIME, FOLLOWING));
 	report_finding(
 		page,

@@ -184,7 +184,6 @@ void strategies_write_curves(report_page *page, const rank_map *m, const report_
 		c.unreported, c.quadrature, gain);
 	report_finding(page,
 		       "Owen-scrambled Sobol points err %.2g times less than independent ones at 4096 samples (median over "
-		       "cases and techniques; 10 %% of them gain no more than %.2g times, where few samples find the "
-		       "light, and 10 %% %.2g times and more, under smooth ones)",
+		       "cases and techniques; 10 %% of them gain no more than %.2g times, and 10 %% %.2g times and more)",
 		       gain, rank_quantile(c.gain, c.gains, 0.1), rank_quantile(c.gain, c.gains, 0.9));
 }
