@@ -1,6 +1,7 @@
 /* test_core.c - vectors, selects and frames. (lobe_fma: test_fma.c.) */
 #include "lobe/core/event.h"
 #include "lobe/core/frame.h"
+#include "lobe/core/real.h"
 
 #include "directions.h"
 #include "measured.h"
@@ -293,6 +294,25 @@ static void test_frame_tangent(void)
 	TEST_ASSERT_TRUE(f.b.x == -1.0f && f.b.y == 0.0f && f.b.z == 0.0f);
 }
 
+/* From 2^-120 to 4, both ends of each power of 4 included; at 0 next to nothing. Planted: a constant
+ * that is a little less. */
+static void test_sqrt_above(void)
+{
+	double most = 0.0, least = 2.0, planted = 2.0;
+	for (int e = -120; e < 2; e++)
+		for (uint64_t i = 0; i < 1000u; i++) {
+			const float x = ldexpf(1.0f + (float)i / 1000.0f, e);
+			const double ratio = (double)lobe_sqrt_above(x) / sqrt((double)x);
+			most = fmax(most, ratio);
+			least = fmin(least, ratio);
+			planted = fmin(planted,
+				       (double)lobe_from_bits((lobe_to_bits(x) >> 1) + 0x1fbff000u) / sqrt((double)x));
+		}
+	printf("  lobe_sqrt_above: the root times %.6f to %.6f; planted %.9f\n", least, most, planted);
+	TEST_ASSERT_TRUE(least >= 1.0 - 2.0 * U && most < 1.0 + 1.0 / 16.0 && planted < 1.0 - 1e-4);
+	TEST_ASSERT_TRUE(lobe_sqrt_above(0.0f) < 1e-19f && lobe_sqrt_above(0x1p-149f) < 1e-19f);
+}
+
 int main(void)
 {
 	UNITY_BEGIN();
@@ -301,6 +321,7 @@ int main(void)
 	RUN_TEST(test_cross);
 	RUN_TEST(test_normalize);
 	RUN_TEST(test_small_vector_functions);
+	RUN_TEST(test_sqrt_above);
 	RUN_TEST(test_selects);
 	RUN_TEST(test_sample_selects);
 	RUN_TEST(test_frame_random);

@@ -22,7 +22,7 @@ static const float widths[] = {1e-4f, 3e-4f, 1e-3f, 1e-2f, 0.1f, 0.3f, 1.0f};
  * in long double. Planted: the point's distance from the axis as the root of h (2 t - h). */
 static void test_visible_far_end(void)
 {
-	double off = 0.0, planted = 0.0;
+	double off = 0.0, bounded = 0.0, planted = 0.0;
 	for (size_t k = 0; k < WIDTHS; k++)
 		for (int angle = 1; angle < 90; angle++)
 			for (uint32_t i = 1; i <= 64u; i++) {
@@ -38,10 +38,21 @@ static void test_visible_far_end(void)
 					    two_t = lobe_ggx_t(v) + lobe_ggx_t(v);
 				const float s = sqrtf(fmaxf(rounded * (two_t - rounded), 0.0f));
 				off = worse(off, fabs((double)m.x / (double)m.z / (double)exact - 1.0));
+				const lobe_facet_bound b =
+					lobe_ggx_bound(widths[k] * widths[k],
+						       lobe_vec3_make((float)sin(theta), 0.0f, (float)cos(theta)));
+				const long double part = (long double)b.part, whole = (long double)b.whole;
+				const long double cap = (long double)u.y * (whole * t + part * z);
+				const long double up =
+					(long double)(1.0f - u.y) * (whole * t + part * z) + (whole - part) * z;
+				const long double side = whole * x + sqrtl(cap * (2.0L * whole * t - cap));
+				const lobe_vec3 n = lobe_ggx_visible_bounded(v, lobe_ggx_t(v), b, u);
+				bounded = worse(bounded, fabs((double)n.x / (double)n.z / (double)(side / up) - 1.0));
 				planted = worse(planted, fabs((double)(v.x + s) / (double)m.z / (double)exact - 1.0));
 			}
 	/* z is off by 3 U and s by 4 U, x by one more. */
 	measured("visible normal, last cells: slope, relative", off, 8.0 * U);
+	measured("the same of the bounded cap", bounded, 12.0 * U);
 	TEST_ASSERT_TRUE(planted > 0.05);
 }
 
@@ -131,8 +142,72 @@ static void test_visible_chi_square(void)
 	TEST_ASSERT_TRUE_MESSAGE(width <= level, "the planted width was not caught");
 }
 
+/* The bound as printed (Eto and Tokuyoshi 2023), k in long double. */
+static long double printed_k(double narrow, double sine, double cosine)
+{
+	const long double a2 = (long double)narrow * (long double)narrow, s = 1.0L + (long double)sine;
+	return (1.0L - a2) * s * s / (s * s + a2 * (long double)cosine * (long double)cosine);
+}
+
+/* Of random visible normals those that a bound of k leaves out: how far above the horizon the highest reflects, as the
+ * sine of its elevation, and how many. */
+static double left_out(lobe_stretch d, lobe_vec3 w, double k, uint32_t stream, uint32_t *out)
+{
+	const float t = stretched_ggx_t(d, w);
+	double highest = -1.0;
+	for (uint64_t i = 0; i < 20000u; i++) {
+		float u[3];
+		test_u3(stream, i, u);
+		const lobe_vec3 h = lobe_ggx_visible_above(lobe_stretch_direction(d, w), t, lobe_vec2_make(u[0], u[1]));
+		if ((double)h.z >= (1.0 - k) * (double)w.z)
+			continue;
+		const double x = (double)d.alpha_x * (double)h.x, y = (double)d.alpha_y * (double)h.y, z = (double)h.z;
+		const double along = (double)w.x * x + (double)w.y * y + (double)w.z * z;
+		highest = larger(highest, 2.0 * along * z / (x * x + y * y + z * z) - (double)w.z);
+		(*out)++;
+	}
+	return highest;
+}
+
+/* What the bound leaves out reflects below the horizon, whatever the widths. Planted: k of the stretched direction. */
+static void test_bound(void)
+{
+	static const float broad[] = {1e-4f, 0.03f, 0.1f, 0.3f, 0.6f, 1.0f};
+	static const double cosines[] = {1e-6, 1e-3, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0};
+	double below = -1.0, above = -1.0, highest = -1.0, planted = -1.0;
+	uint32_t out = 0, planted_out = 0, n = 0;
+	for (size_t i = 0; i < 36; i++)
+		for (size_t j = 0; j < 9 * 3; j++, n++) {
+			const lobe_stretch d = lobe_stretch_make(broad[i / 6], broad[i % 6]);
+			const lobe_vec3 w = direction_at(cosines[j / 3], 0.7 * (double)(j % 3));
+			const double sine = sqrt((double)w.x * (double)w.x + (double)w.y * (double)w.y);
+			const double narrow = fmin((double)d.alpha_x, (double)d.alpha_y);
+			const lobe_facet_bound b = lobe_ggx_bound(lobe_stretch_narrow2(d), w);
+			const double k = (double)b.part / (double)b.whole, t = (double)stretched_ggx_t(d, w);
+			const double wrong =
+				(double)printed_k(narrow, sqrt(1.0 - pow((double)w.z / t, 2.0)), (double)w.z / t);
+			const double more = fmin(1.0625 * sine + 1e-18, 1.0);
+			below = larger(below, (double)printed_k(narrow, sine, (double)w.z) - k);
+			above = larger(above, k - (double)printed_k(narrow, more, sqrt(1.0 - more * more)));
+			highest = larger(highest, left_out(d, w, k, 200u + n, &out));
+			planted = larger(planted, left_out(d, w, wrong, 200u + n, &planted_out));
+		}
+	printf("  left out: %u normals; by k of the stretched direction %u, which reflect up to %.3f\n", out,
+	       planted_out, planted);
+	measured("the bound's k below the printed one", below, 4.0 * U);
+	measured("above that of a sine greater by a 16th of it", above, 4.0 * U);
+	measured("what the bound leaves out reflects above the horizon by", highest, 2.0 * U);
+	TEST_ASSERT_TRUE(out > 100000u && planted > 0.05);
+}
+
+static lobe_vec3 sample_bounded(lobe_stretch d, lobe_vec3 w, float t, lobe_vec2 u)
+{
+	const lobe_facet_bound b = lobe_ggx_bound(lobe_stretch_narrow2(d), w);
+	return lobe_stretch_normal(d, lobe_ggx_visible_bounded(lobe_stretch_direction(d, w), t, b, u));
+}
+
 /* Every u and w, the extreme ones above all: m.z > 0, and the length can be divided by. */
-static void test_visible_extremes(void)
+static void visible_extremes(sampler sample)
 {
 	static const float corner[] = {0.0f, 0x1p-149f, 0x1p-24f,       0.25f,         0x1.fffffep-2f,
 				       0.5f, 0.75f,     0x1.fffffcp-1f, 0x1.fffffep-1f};
@@ -153,7 +228,7 @@ static void test_visible_extremes(void)
 					if (l >= corners * corners)
 						u = lobe_vec2_make(test_uniform(30, l),
 								   l & 1 ? 0x1.fffffep-1f : test_uniform(31, l));
-					const lobe_vec3 m = stretched_ggx_visible(d, w, t, u);
+					const lobe_vec3 m = sample(d, w, t, u);
 					const lobe_vec3 n = lobe_normalize(m);
 					const double len = sqrt((double)m.x * (double)m.x + (double)m.y * (double)m.y +
 								(double)m.z * (double)m.z);
@@ -185,11 +260,16 @@ static void test_visible_extremes(void)
 	printf("  %-60s %11.4g\n", "largest -w.m/|m| (0: all are visible)", hidden);
 }
 
+static void test_visible_extremes(void) { visible_extremes(stretched_ggx_visible); }
+static void test_bounded_extremes(void) { visible_extremes(sample_bounded); }
+
 int main(void)
 {
 	UNITY_BEGIN();
 	RUN_TEST(test_visible_chi_square);
 	RUN_TEST(test_visible_extremes);
+	RUN_TEST(test_bounded_extremes);
+	RUN_TEST(test_bound);
 	RUN_TEST(test_visible_far_end);
 	return UNITY_END();
 }

@@ -85,7 +85,7 @@ static void test_variances_are_those_of_samples(void)
 enum { CELLS = 5 };
 
 /* All strategies have variance 1 in 1 s, but: cell 0 the cap 1.01 times less; 1 V-cavity 2 times less; 2 cosine 10
- * times less; 3 no light arrives; 4 the default twice as good. The cap takes 1.5 times as long. */
+ * times less; 3 no light arrives; 4 visible normals twice as good. The cap takes 1.5 times as long. */
 static void by_hand(rank_map *m, rank_cell cell[CELLS])
 {
 	memset(m, 0, sizeof *m);
@@ -124,6 +124,12 @@ static void test_who_is_unbeaten(void)
 	/* The cap's time counts where time does: then it is beaten everywhere. */
 	TEST_ASSERT_EQUAL_DOUBLE(0.0, rank_share_of(&m, LOBE_STRATEGY_BOUNDED_CAP, TIME, FOLLOWING, -1).all);
 	TEST_ASSERT_EQUAL_DOUBLE(50.0, rank_share_of(&m, LOBE_STRATEGY_BOUNDED_CAP, SAMPLES, FOLLOWING, -1).all);
+	/* And hardly at all where each direction is a ray of 300 besides. GGX's default is the cap. */
+	TEST_ASSERT_EQUAL_DOUBLE(50.0, rank_share_of(&m, LOBE_STRATEGY_BOUNDED_CAP, RAY, FOLLOWING, -1).all);
+	TEST_ASSERT_EQUAL_DOUBLE(50.0, rank_share_of(&m, RANK_DEFAULT, SAMPLES, FOLLOWING, -1).all);
+	cell[0].material = cell[1].material = cell[2].material = cell[4].material = STRATEGIES_BECKMANN;
+	TEST_ASSERT_EQUAL_DOUBLE(75.0, rank_share_of(&m, RANK_DEFAULT, SAMPLES, FOLLOWING, -1).all);
+	by_hand(&m, cell);
 	double share;
 	TEST_ASSERT_EQUAL_INT(LOBE_STRATEGY_VISIBLE, rank_most(&m, SAMPLES, FOLLOWING, &share));
 	TEST_ASSERT_EQUAL_DOUBLE(75.0, share);

@@ -130,8 +130,10 @@ static void test_planted_errors_are_caught(void)
 	const double t = sqrt((double)(o.x * o.x + o.y * o.y + o.z * o.z));
 	const lobe_vec3 stretched =
 		lobe_vec3_make((float)((double)o.x / t), (float)((double)o.y / t), (float)((double)o.z / t));
-	const double k_right = (double)lobe_ggx_bounded_k(v.p.surface.narrow, v.wo);
-	const double k_wrong = (double)lobe_ggx_bounded_k(v.p.surface.narrow, stretched);
+	const lobe_facet_bound b_right = lobe_ggx_bound(v.p.surface.narrow * v.p.surface.narrow, v.wo);
+	const lobe_facet_bound b_wrong = lobe_ggx_bound(v.p.surface.narrow * v.p.surface.narrow, stretched);
+	const double k_right = (double)b_right.part / (double)b_right.whole;
+	const double k_wrong = (double)b_wrong.part / (double)b_wrong.whole;
 	const double two_sigma = k_right * (double)v.wo.z + t, two_sigma_wrong = k_wrong * (double)v.wo.z + t;
 	printf("  bounded cap: integral %.5f + rejected %.5f; with k %.5f of the stretched direction for %.5f the "
 	       "integral is "

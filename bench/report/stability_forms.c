@@ -36,7 +36,7 @@ static float karis_d(float n_h, float alpha)
 /* D of the library's GGX at the half vector of that sum. */
 static float library_d(lobe_stretch stretch, lobe_vec3 sum)
 {
-	return 2.0f * lobe_reflection_density(LOBE_NDF_GGX, stretch, lobe_vec3_squares(sum), 1.0f);
+	return 2.0f * lobe_reflection_density(LOBE_NDF_GGX, stretch, lobe_vec3_squares(sum), 1.0f, 1.0f, 1.0f);
 }
 
 /* Heitz 2014, eq. 85; widths as one sees them along h. */
@@ -222,8 +222,9 @@ static double defective(const stability_case *c, stability_verb verb, int by_sin
 		    t_i = lobe_reflection_t(LOBE_NDF_GGX, p.stretch, i);
 	const float lambda_o = by_tangent ? tangent_lambda(o, ax, ay) : 0.5f * (t_o / o.z - 1.0f);
 	const float lambda_i = by_tangent ? tangent_lambda(i, ax, ay) : 0.5f * (t_i / i.z - 1.0f);
+	const lobe_facet_bound b = lobe_ggx_bound(lobe_stretch_narrow2(p.stretch), o);
 	if (verb == STABILITY_PDF)
-		return (double)(quarter_d / (o.z * (1.0f + lambda_o)));
+		return (double)(quarter_d / (o.z * (0.5f + 0.5f * b.part / b.whole + lambda_o)));
 	const lobe_rgb f = lobe_rough_conductor_fresnel(p, lobe_dot(sum, sum), 1.0f);
 	const float value = quarter_d / (o.z * (1.0f + lambda_o + lambda_i));
 	return (double)(value * (c->channel == 0 ? f.r : c->channel == 1 ? f.g : f.b));

@@ -39,8 +39,9 @@ static REAL REAL_(at_most_1)(REAL c) { return c > 1 ? 1 : c; }
 static REAL REAL_(opaque)(stability_question q, const REAL *o, const REAL *i, const REAL *p)
 {
 	const int linear = q.kind == LOBE_KIND_MICROFACET_CONDUCTOR;
-	const REAL_(facet) f =
-		REAL_(reflection)(REAL_(surface_of)(q.kind, p), o, i, linear && p[16] == LOBE_JOINT_SEPARABLE);
+	const REAL_(surface) s = REAL_(surface_of)(q.kind, p);
+	const REAL k = s.beckmann || linear ? 1 : REAL_(bounded)(s, o);
+	const REAL_(facet) f = REAL_(reflection)(s, o, i, linear && p[16] == LOBE_JOINT_SEPARABLE, k);
 	const REAL a = p[2 + q.channel], b = p[5 + q.channel];
 	if (!f.there)
 		return 0;
@@ -69,7 +70,7 @@ static REAL REAL_(glass)(stability_question q, const REAL *wo, const REAL *wi, c
 	if (q.straight)
 		return q.verb == STABILITY_WEIGHT ? scale : 0;
 	if (i[2] > 0) {
-		const REAL_(facet) f = REAL_(reflection)(s, o, i, linear && p[16] == LOBE_JOINT_SEPARABLE);
+		const REAL_(facet) f = REAL_(reflection)(s, o, i, linear && p[16] == LOBE_JOINT_SEPARABLE, 1);
 		const REAL share = !f.there  ? 0
 				   : q.white ? 1
 					     : REAL_(fresnel)(REAL_(at_most_1)(f.cosine + (REAL)q.nudge), e);
@@ -139,21 +140,21 @@ static REAL REAL_(lobe)(stability_question q, const REAL *wo, const REAL *wi, co
 
 /* --- where a sample goes: component q.channel of wi --------------------------------------------------------------- */
 
-/* Dupuy and Benyoub 2023: a point of the spherical cap that o, stretched, sees, plus o, stretched back. The point moved
- * by dx and dy. */
-static void REAL_(visible_normal)(REAL_(surface) s, const REAL *o, const REAL *u, REAL dx, REAL dy, REAL m[3])
+/* Dupuy and Benyoub 2023: a point of the spherical cap that o, stretched, sees, plus o, stretched back. k: how much of
+ * the cap below the horizon. The point moved by dx and dy. */
+static void REAL_(visible_normal)(REAL_(surface) s, const REAL *o, REAL k, const REAL *u, REAL dx, REAL dy, REAL m[3])
 {
 	REAL v[3] = {s.xx * o[0], s.yy * o[1], o[2]};
 	const REAL length = REAL_SQRT(REAL_(dot)(v, v));
-	for (int k = 0; k < 3; k++)
-		v[k] /= length;
-	const REAL phi = 2 * REAL_PI * u[0], z = (1 - u[1]) * (1 + v[2]) - v[2], r = REAL_SQRT(1 - z * z);
+	for (int j = 0; j < 3; j++)
+		v[j] /= length;
+	const REAL phi = 2 * REAL_PI * u[0], z = (1 - u[1]) * (1 + k * v[2]) - k * v[2], r = REAL_SQRT(1 - z * z);
 	m[0] = s.xx * (r * REAL_COS(phi) + v[0] + dx);
 	m[1] = s.yy * (r * REAL_SIN(phi) + v[1] + dy);
 	m[2] = z + v[2];
 	const REAL size = REAL_SQRT(REAL_(dot)(m, m));
-	for (int k = 0; k < 3; k++)
-		m[k] /= size;
+	for (int j = 0; j < 3; j++)
+		m[j] /= size;
 }
 
 static void REAL_(mirrored)(const REAL *o, const REAL *m, REAL c, REAL i[3])
@@ -197,11 +198,11 @@ static REAL REAL_(direction)(stability_question q, const REAL *wo, const REAL *u
 		return i[q.channel];
 	case LOBE_KIND_GGX_CONDUCTOR:
 	case LOBE_KIND_GGX_SCHLICK:
-		REAL_(visible_normal)(s, o, u, dx, dy, m);
+		REAL_(visible_normal)(s, o, REAL_(bounded)(s, o), u, dx, dy, m);
 		REAL_(mirrored)(o, m, REAL_(dot)(o, m), i);
 		return i[q.channel];
 	case LOBE_KIND_GGX_DIELECTRIC:
-		REAL_(visible_normal)(s, o, u, dx, dy, m);
+		REAL_(visible_normal)(s, o, 1, u, dx, dy, m);
 		if (q.reflects)
 			REAL_(mirrored)(o, m, REAL_(at_most_1)(REAL_(dot)(o, m)), i);
 		else

@@ -112,28 +112,42 @@ typedef struct {
 	int there;
 } REAL_(facet);
 
+/* The share of the cap below the mean plane's horizon that is sampled of GGX for reflections: Eto and Tokuyoshi 2023,
+ * with the sine from above, by the tangents that core/real.h has. */
+static REAL REAL_(bounded)(REAL_(surface) s, const REAL o[3])
+{
+	const REAL a = s.xx < s.yy ? s.xx : s.yy, sine2 = o[0] * o[0] + o[1] * o[1];
+	REAL r = (3 + sine2) / 2;
+	for (REAL at = 1; at > (REAL)1e-18; at /= 2) {
+		const REAL tangent = 1 + (at + sine2 / at) / 2;
+		r = r < tangent ? r : tangent;
+	}
+	/* Of the cosine that has that sine. */
+	return (1 - a * a) * r * r / (r * r + a * a * r * (2 - r));
+}
+
 /* o and i above the surface. Cook and Torrance 1982, Walter et al. 2007, eq. 20; Heitz and d'Eon 2014 for the
- * density. */
-static REAL_(facet) REAL_(reflection)(REAL_(surface) s, const REAL o[3], const REAL i[3], int separable)
+ * density, and k as above, or 1. */
+static REAL_(facet) REAL_(reflection)(REAL_(surface) s, const REAL o[3], const REAL i[3], int separable, REAL k)
 {
 	REAL_(facet) f = {0, 0, 0, 0, 0};
 	REAL h[3];
-	for (int k = 0; k < 3; k++)
-		h[k] = o[k] + i[k];
+	for (int j = 0; j < 3; j++)
+		h[j] = o[j] + i[j];
 	const REAL length = REAL_SQRT(REAL_(dot)(h, h));
 	if (!(length > 0) || !(o[2] > 0) || !(i[2] > 0))
 		return f;
-	for (int k = 0; k < 3; k++)
-		h[k] /= length;
+	for (int j = 0; j < 3; j++)
+		h[j] /= length;
 	const REAL_(seen) seen_o = REAL_(see)(s, o), seen_i = REAL_(see)(s, i);
 	const REAL d = REAL_(d)(s, h), g = REAL_(g2_over_cos)(seen_o, seen_i, separable);
 	/* One number where directions are unit. */
-	const REAL sigma = seen_o.z + seen_o.h, c = (REAL_(dot)(o, h) + REAL_(dot)(i, h)) / 2;
+	const REAL area = (1 + k) * seen_o.z / 2 + seen_o.h, c = (REAL_(dot)(o, h) + REAL_(dot)(i, h)) / 2;
 	f.there = 1;
 	f.cosine = c;
 	f.eval = d * g / 4;
-	f.pdf = d / (4 * sigma);
-	f.weight = g * sigma;
+	f.pdf = d / (4 * area);
+	f.weight = g * area;
 	return f;
 }
 

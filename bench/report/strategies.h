@@ -71,7 +71,7 @@ enum {
 	STRATEGIES_LIGHT = LOBE_STRATEGY_LAST + 1, /* those before: LOBE_STRATEGY_* */
 	STRATEGIES_BALANCE,
 	STRATEGIES_POWER,
-	STRATEGIES_BALANCE_BOUNDED, /* with the bounded cap in the place of the default strategy */
+	STRATEGIES_BALANCE_BOUNDED, /* with the bounded cap in the place of visible normals */
 	STRATEGIES_TECHNIQUES,
 	STRATEGIES_LOBE = STRATEGIES_LIGHT /* the number of those that sample the lobe alone */
 };
@@ -96,6 +96,9 @@ lobe_microfacet_conductor strategies_lobe(int material, float alpha, lobe_uint s
 
 /* The distribution's part of a material: what time depends on. */
 int strategies_ndf(int material);
+
+/* LOBE_STRATEGY_*: what the production lobe of it does. */
+int strategies_default(int material);
 
 /* One estimate of the luminance. u for a direction from the lobe, v for one from the light. */
 float strategies_estimate(const strategies_case *c, int technique, const float u[3], const float v[3]);

@@ -20,6 +20,11 @@ const char *strategies_material_name(int material)
 
 int strategies_ndf(int material) { return material == STRATEGIES_BECKMANN; }
 
+int strategies_default(int material)
+{
+	return material == STRATEGIES_BECKMANN ? LOBE_STRATEGY_VISIBLE : LOBE_STRATEGY_BOUNDED_CAP;
+}
+
 /* --- grids -------------------------------------------------------------------------------------------------------- */
 
 size_t strategies_alphas(int quick) { return quick ? 7 : 13; }

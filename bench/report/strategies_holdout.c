@@ -145,8 +145,8 @@ static int run(int quick, size_t unit, report_rows *rows)
 			   strategies_ndf(c.material) ? "Beckmann" : "GGX", c.alpha, across, c.cosine, m.mean,
 			   strategies_name(winner), strategies_name(by_shape), loss_of(&m, by_shape) / best,
 			   strategies_name(asked), loss_of(&m, asked) / best,
-			   loss_of(&m, LOBE_STRATEGY_VISIBLE) / loss_of(&m, t), sqrt(fmax(m.variance[t], 0.0)) / m.mean,
-			   (double)r->deviation);
+			   loss_of(&m, strategies_default(c.material)) / loss_of(&m, t),
+			   sqrt(fmax(m.variance[t], 0.0)) / m.mean, (double)r->deviation);
 	}
 	return 0;
 }
@@ -221,7 +221,8 @@ void strategies_write_holdout(report_page *page, const report_table *t)
 		"On %zu cases drawn at random, which it was not tuned on (surfaces, views and analytic lights; the "
 		"map's probes from random sides), `lobe_recommend_strategy` asking the light "
 		"is "
-		"within 5 %% of the best technique in %.1f %% (+- %.1f, 95 %%) and within a factor of 2 in %.1f %%, at worst off by a "
+		"within 5 %% of the best technique in %.1f %% (+- %.1f, 95 %%) and within a factor of 2 in %.1f %%, at "
+		"worst off by a "
 		"factor of %.3g; told a shape %.1f %% and %.1f %%",
 		a.n, p, 1.96 * sqrt(p * (100.0 - p) / (double)a.n), rank_within(a.asking, a.n, 2.0),
 		rank_quantile(a.asking, a.n, 1.0), rank_within(a.told, a.n, 1.05), rank_within(a.told, a.n, 2.0));

@@ -3,7 +3,7 @@
 #define LOBE_REPORT_STRATEGIES_NAMES_H
 
 #define STRATEGIES_NAMES                                                                                               \
-	"visible (default)", "uniform", "cosine", "plain NDF", "slopes 2014", "ellipsoid 2018", "cap 2023",            \
+	"visible normals", "uniform", "cosine", "plain NDF", "slopes 2014", "ellipsoid 2018", "cap 2023",            \
 		"bounded cap", "V-cavity", "hemisphere"
 
 #endif

@@ -198,10 +198,12 @@ static void time_pixels(strategies_case ball[BALLS], int technique, int height, 
 				continue;
 			for (int k = 0; k < ROUNDS; k++)
 				for (int which = 0; which < TIMED; which++)
-					least[which] = fmin(
-						least[which],
-						time_pixel(c, which == OF_DEFAULT ? LOBE_STRATEGY_VISIBLE : technique,
-							   (const float(*)[6])u, COUNT));
+					least[which] =
+						fmin(least[which],
+						     time_pixel(c,
+								which == OF_DEFAULT ? strategies_default(STRATEGIES_GGX)
+										    : technique,
+								(const float(*)[6])u, COUNT));
 			for (int which = 0; which < TIMED; which++)
 				ns[which] += least[which];
 			n++;
@@ -221,8 +223,9 @@ static int picture_run(int quick, size_t unit, report_rows *rows)
 	int failed = value == NULL;
 	set_up(ball, light_of(quick, picture));
 	time_pixels(ball, technique, height, ns);
-	const double samples = technique == LOBE_STRATEGY_VISIBLE ? DEFAULT_SAMPLES
-								  : DEFAULT_SAMPLES * ns[OF_DEFAULT] / ns[OF_TECHNIQUE];
+	const double samples = technique == strategies_default(STRATEGIES_GGX)
+				       ? DEFAULT_SAMPLES
+				       : DEFAULT_SAMPLES * ns[OF_DEFAULT] / ns[OF_TECHNIQUE];
 	/* The picture, and of others by other seeds every STRATEGIES_GRID-th pixel. */
 	for (int seed = 0; seed <= SEEDS; seed++) {
 		const int step = seed ? STRATEGIES_GRID : 1, first = step / 2;

@@ -47,9 +47,9 @@ static void write_names(const rank_map *m)
 
 void strategies_write_maps(report_page *page, const rank_map *m)
 {
-	static const char *const what[2][MEASURES] = {{"strategies_best_samples", "strategies_best_time"},
-						      {"strategies_lobe_samples", "strategies_lobe_time"}};
-	static const char *const said[2][MEASURES] = {
+	static const char *const what[2][RAY] = {{"strategies_best_samples", "strategies_best_time"},
+						 {"strategies_lobe_samples", "strategies_lobe_time"}};
+	static const char *const said[2][RAY] = {
 		{"What wins, a direction costing the same whatever it was drawn from (both: two).",
 		 "What wins in equal time of shading alone, by the scalar functions."},
 		{"The best of the strategies that do not know the light, for the same number of samples.",
@@ -57,7 +57,7 @@ void strategies_write_maps(report_page *page, const rank_map *m)
 	char file[64], definitions[512];
 	write_names(m);
 	for (int lobe = 0; lobe < 2; lobe++)
-		for (int measure = 0; measure < MEASURES; measure++) {
+		for (int measure = 0; measure < RAY; measure++) {
 			snprintf(file, sizeof file, "%s.dat", what[lobe][measure]);
 			write_winners(m, file, lobe ? STRATEGIES_LOBE : STRATEGIES_TECHNIQUES, measure);
 			snprintf(definitions, sizeof definitions, "OUT='%s.png'; DATA='%s'; TITLE='%s'",
@@ -67,7 +67,7 @@ void strategies_write_maps(report_page *page, const rank_map *m)
 			report_figure(page, file,
 				      "%s Isotropic GGX, over roughness and view cosine, a panel for each light; "
 				      "within 2 %% of "
-				      "the best the default has it, then the bounded cap.",
+				      "the best the default, the bounded cap, has it, then visible normals.",
 				      said[lobe][measure]);
 		}
 }
@@ -116,7 +116,7 @@ static void check_curves(const report_table *t, curves *r)
 }
 
 /* Lines "time error" in blocks, one for each case, technique and kind of points; the first four cases. */
-static void write_lines(report_page *page, const rank_map *m, const report_table *t, const report_table *time)
+static void write_lines(report_page *page, const rank_map *m, const report_table *t)
 {
 	FILE *f = report_open("strategies_curves.dat"), *titles = report_open("strategies_titles.gp");
 	const size_t block = 7, per_case = block * 2 * STRATEGIES_TECHNIQUES;
@@ -127,12 +127,6 @@ static void write_lines(report_page *page, const rank_map *m, const report_table
 		const char *material = report_cell(t, first, "material"), *light = report_cell(t, first, "light");
 		const int ndf = strategies_ndf(rank_material(material));
 		const size_t l = rank_light(m, light);
-		double ns = 100.0;
-		for (size_t i = 0; i < report_table_rows(time); i++)
-			if (strcmp(report_cell(time, i, "light"), light) == 0 &&
-			    strcmp(report_cell(time, i, "technique"), strategies_name(LOBE_STRATEGY_VISIBLE)) == 0 &&
-			    strategies_ndf(rank_material(report_cell(time, i, "material"))) == ndf)
-				ns = report_number(time, i, "ns");
 		fprintf(titles, "TITLES[%zu] = \"%s alpha %s, cos %s: %s\"\n", k + 1, material,
 			report_cell(t, first, "alpha"), report_cell(t, first, "cosine"), light);
 		for (size_t i = first; i < first + per_case; i++) {
@@ -140,8 +134,7 @@ static void write_lines(report_page *page, const rank_map *m, const report_table
 			const int random = strcmp(report_cell(t, i, "points"), "random") == 0;
 			/* By the exact variance: repetitions of a technique that hardly ever finds the light tell
 			 * nothing. */
-			fprintf(f, "%.6g %.6g\n",
-				1e-3 * ns * m->time[ndf][l][technique] * report_number(t, i, "samples"),
+			fprintf(f, "%.6g %.6g\n", 1e-3 * m->time[ndf][l][technique] * report_number(t, i, "samples"),
 				!random && !reported(t, i)
 					? (double)NAN
 					: report_number(t, i, random ? "predicted_random" : "relative_rmse"));
@@ -165,10 +158,10 @@ static void write_lines(report_page *page, const rank_map *m, const report_table
 		      "density differ by their time alone.");
 }
 
-void strategies_write_curves(report_page *page, const rank_map *m, const report_table *t, const report_table *time)
+void strategies_write_curves(report_page *page, const rank_map *m, const report_table *t)
 {
 	static curves c;
-	write_lines(page, m, t, time);
+	write_lines(page, m, t);
 	check_curves(t, &c);
 	const double gain = rank_quantile(c.gain, c.gains, 0.5);
 	report_text(
@@ -182,8 +175,9 @@ void strategies_write_curves(report_page *page, const rank_map *m, const report_
 		"less than independent ones at 4096 samples (median over cases and techniques).\n\n",
 		c.offs, 100.0 * rank_quantile(c.off, c.offs, 0.5), 100.0 * rank_quantile(c.off, c.offs, 0.9), c.rows,
 		c.unreported, c.quadrature, gain);
-	report_finding(page,
-		       "Owen-scrambled Sobol points err %.2g times less than independent ones at 4096 samples (median over "
-		       "cases and techniques; 10 %% of them gain no more than %.2g times, and 10 %% %.2g times and more)",
-		       gain, rank_quantile(c.gain, c.gains, 0.1), rank_quantile(c.gain, c.gains, 0.9));
+	report_finding(
+		page,
+		"Owen-scrambled Sobol points err %.2g times less than independent ones at 4096 samples (median over "
+		"cases and techniques; 10 %% of them gain no more than %.2g times, and 10 %% %.2g times and more)",
+		gain, rank_quantile(c.gain, c.gains, 0.1), rank_quantile(c.gain, c.gains, 0.9));
 }

@@ -43,10 +43,10 @@ static void read_times(rank_map *m, const report_table *t)
 		const size_t light = rank_light(m, report_cell(t, i, "light"));
 		if (technique < 0)
 			continue;
-		const double ratio = report_number(t, i, "of_default");
-		m->time[ndf][light][technique] = ratio;
+		m->time[ndf][light][technique] = report_number(t, i, "ns");
 		m->noise[ndf][light][technique] =
-			0.5 * (report_number(t, i, "of_default_high") - report_number(t, i, "of_default_low")) / ratio;
+			0.5 * (report_number(t, i, "of_visible_high") - report_number(t, i, "of_visible_low")) /
+			report_number(t, i, "of_visible");
 	}
 }
 
@@ -85,15 +85,23 @@ void rank_read(rank_map *m, int quick, const report_table *rows, const report_ta
 
 /* --- who wins ----------------------------------------------------------------------------------------------------- */
 
-static double cost(const rank_map *m, const rank_cell *c, int technique, int measure)
+int rank_strategy(const rank_cell *c, int k)
 {
-	if (measure == SAMPLES)
-		return technique >= STRATEGIES_BALANCE ? 2.0 : 1.0;
-	return m->time[strategies_ndf(c->material)][c->light][technique];
+	if (k != RANK_DEFAULT)
+		return k;
+	return strategies_default(c->material);
 }
 
-double rank_loss(const rank_map *m, const rank_cell *c, int technique, int measure)
+static double cost(const rank_map *m, const rank_cell *c, int technique, int measure)
 {
+	const double directions = technique >= STRATEGIES_BALANCE ? 2.0 : 1.0;
+	const double time = m->time[strategies_ndf(c->material)][c->light][technique];
+	return measure == SAMPLES ? directions : measure == TIME ? time : time + RANK_RAY * directions;
+}
+
+double rank_loss(const rank_map *m, const rank_cell *c, int k, int measure)
+{
+	const int technique = rank_strategy(c, k);
 	return fmax(c->variance[technique], 1e-300) * cost(m, c, technique, measure);
 }
 
@@ -106,9 +114,9 @@ int rank_winner(const rank_map *m, const rank_cell *c, int techniques, int measu
 		if (rank_loss(m, c, k, measure) < rank_loss(m, c, best, measure))
 			best = k;
 	const double enough = RANK_TIE * rank_loss(m, c, best, measure);
-	if (rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) <= enough)
-		return LOBE_STRATEGY_VISIBLE;
-	return rank_loss(m, c, LOBE_STRATEGY_BOUNDED_CAP, measure) <= enough ? LOBE_STRATEGY_BOUNDED_CAP : best;
+	if (rank_loss(m, c, RANK_DEFAULT, measure) <= enough)
+		return rank_strategy(c, RANK_DEFAULT);
+	return rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) <= enough ? LOBE_STRATEGY_VISIBLE : best;
 }
 
 int rank_is_among(int k, int among)
@@ -116,22 +124,26 @@ int rank_is_among(int k, int among)
 	return k < STRATEGIES_LOBE && (among == BLIND || !lobe_strategy_of_directions((lobe_uint)k));
 }
 
-static double noise_of(const rank_map *m, const rank_cell *c, int k)
+/* Of the cost, by the noise of the time in it. */
+static double noise_of(const rank_map *m, const rank_cell *c, int k, int measure)
 {
-	return m->noise[strategies_ndf(c->material)][c->light][k];
+	const int ndf = strategies_ndf(c->material);
+	return measure == SAMPLES ? 0.0
+				  : m->noise[ndf][c->light][k] * m->time[ndf][c->light][k] / cost(m, c, k, measure);
 }
 
 static double doubt_of(const rank_cell *c, int k) { return c->error[k] / fmax(c->variance[k], 1e-300); }
 
 static double tie(const rank_map *m, const rank_cell *c, int a, int b, int measure)
 {
-	const double of_times = measure == TIME ? noise_of(m, c, a) + noise_of(m, c, b) : 0.0;
+	const double of_times = noise_of(m, c, a, measure) + noise_of(m, c, b, measure);
 	const double of_variances = fmin(2.0 * hypot(doubt_of(c, a), doubt_of(c, b)), 0.05);
 	return fmax(RANK_TIE, 1.0 + fmin(of_times + of_variances, 0.25));
 }
 
-int rank_unbeaten(const rank_map *m, const rank_cell *c, int k, int measure, int among)
+int rank_unbeaten(const rank_map *m, const rank_cell *c, int strategy, int measure, int among)
 {
+	const int k = rank_strategy(c, strategy);
 	for (int other = 0; other < STRATEGIES_LOBE; other++)
 		if (rank_is_among(other, among) &&
 		    rank_loss(m, c, k, measure) > tie(m, c, k, other, measure) * rank_loss(m, c, other, measure))
@@ -267,12 +279,12 @@ int rank_recommended(lobe_recommendation r)
 static lobe_recommend_cost costs_of(const rank_map *m, const rank_cell *c, int measure)
 {
 	lobe_recommend_cost p = lobe_recommend_cost_samples();
-	const double *time = m->time[strategies_ndf(c->material)][c->light];
+	const double *time = m->time[strategies_ndf(c->material)][c->light], ray = measure == RAY ? RANK_RAY : 0.0;
 	if (measure == SAMPLES)
 		return p;
 	for (int k = 0; k < STRATEGIES_LOBE; k++)
-		p.lobe[k] = (float)time[k];
-	p.light = (float)time[STRATEGIES_LIGHT];
+		p.lobe[k] = (float)(time[k] + ray);
+	p.light = (float)(time[STRATEGIES_LIGHT] + ray);
 	p.weighting = (float)(time[STRATEGIES_BALANCE] - time[LOBE_STRATEGY_VISIBLE] - time[STRATEGIES_LIGHT]);
 	return p;
 }
@@ -303,7 +315,7 @@ void rank_recommend(const rank_map *m, rank_regrets r[MEASURES])
 				of->loss[how][probe][of->cells[probe]] = rank_loss(m, c, t, measure) / best;
 			}
 			of->of_default[of->cells[0] + of->cells[1]] =
-				rank_loss(m, c, LOBE_STRATEGY_VISIBLE, measure) / rank_loss(m, c, t, measure);
+				rank_loss(m, c, RANK_DEFAULT, measure) / rank_loss(m, c, t, measure);
 			of->unbeaten += (size_t)rank_unbeaten(m, c, t, measure, BLIND);
 			of->cells[probe]++;
 		}

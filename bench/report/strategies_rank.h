@@ -1,13 +1,21 @@
 /* strategies_rank.h - the map read back, and which technique is how good where.
  *
- * Efficiency is 1/(variance cost), where the cost of a sample is either a direction, as where each costs a ray, or the
- * time that the comparison lobe takes for it with the light's lookup, one sample after another on one thread. */
+ * Efficiency is 1/(variance cost), where the cost of a sample is either a direction (SAMPLES), or the time that the
+ * comparison lobe takes for it with the light's lookup, one sample after another on one thread (TIME), or that and a ray
+ * for each direction (RAY). */
 #ifndef LOBE_REPORT_STRATEGIES_RANK_H
 #define LOBE_REPORT_STRATEGIES_RANK_H
 
 #include "strategies.h"
 
-enum { LIGHTS_MAX = 32, SAMPLES = 0, TIME = 1, MEASURES = 2 };
+enum { LIGHTS_MAX = 32, SAMPLES = 0, TIME = 1, RAY = 2, MEASURES = 3 };
+
+/* What production lobes do, by material: the bounded cap for GGX, visible normals for Beckmann. Where a strategy is asked
+ * for below, this may stand for one. */
+enum { RANK_DEFAULT = -1 };
+
+/* A ray, in ns. */
+#define RANK_RAY 300.0
 
 /* What ties: within 2 %, or within what is known of the two - two standard deviations of the integrals, 5 % at most,
  * and the spread of the times. Strategies of one density have one variance (strategies_moments.c) and tie in it. */
@@ -27,7 +35,7 @@ typedef struct {
 	int quick;
 	size_t count;
 	rank_cell *cell;
-	/* Over the default's, by distribution and light; half the range given with it, relative. */
+	/* In ns, by distribution and light; half the range given with it, relative. */
 	double time[2][LIGHTS_MAX][STRATEGIES_TECHNIQUES], noise[2][LIGHTS_MAX][STRATEGIES_TECHNIQUES];
 } rank_map;
 
@@ -57,18 +65,20 @@ typedef struct {
 	size_t unbeaten;
 } rank_regrets;
 
+int rank_strategy(const rank_cell *c, int k);
+
 /* Of their names. */
 int rank_technique(const char *name);
 size_t rank_light(const rank_map *m, const char *name);
 int rank_material(const char *name);
 
 /* What is minimal for the best. */
-double rank_loss(const rank_map *m, const rank_cell *c, int technique, int measure);
+double rank_loss(const rank_map *m, const rank_cell *c, int k, int measure);
 
 /* Light that does not reach the viewer: all techniques find 0. */
 int rank_dark(const rank_cell *c);
 
-/* The first of VISIBLE, BOUNDED_CAP and the rest that is as good as the best. techniques: how many are looked at. */
+/* The first of the default, VISIBLE and the rest that is as good as the best. techniques: how many are looked at. */
 int rank_winner(const rank_map *m, const rank_cell *c, int techniques, int measure);
 
 int rank_is_among(int strategy, int among);
@@ -113,6 +123,6 @@ void strategies_write_holdout(report_page *page, const report_table *t);
 
 /* strategies_plot.c: figures of the map and of the error curves, and what the latter say. */
 void strategies_write_maps(report_page *page, const rank_map *m);
-void strategies_write_curves(report_page *page, const rank_map *m, const report_table *t, const report_table *time);
+void strategies_write_curves(report_page *page, const rank_map *m, const report_table *t);
 
 #endif

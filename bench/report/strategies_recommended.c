@@ -69,8 +69,7 @@ void strategies_write_recommended(report_page *page, const rank_map *m)
 	report_text(page,
 		    "\nWhat it names when it asks is at least as efficient as each of the ten strategies that know "
 		    "nothing of "
-		    "the light, with the same ties, in %.1f %% of all cells; against always sampling visible normals "
-		    "alone it "
+		    "the light, with the same ties, in %.1f %% of all cells; against the default alone it "
 		    "needs %.3g times fewer samples at the median, %.3g times at the 90th percentile.\n\n",
 		    unbeaten, rank_quantile(s->of_default, cells, 0.5), rank_quantile(s->of_default, cells, 0.9));
 	char probes[96] = "";

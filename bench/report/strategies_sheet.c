@@ -226,19 +226,21 @@ static void write_sheet(report_page *page, const report_table *reference, const 
 	int next = best == 0;
 	for (int t = 0; t < STRATEGIES_TECHNIQUES; t++)
 		next = t != best && seeds[t].quartile[1] < seeds[next].quartile[1] ? t : next;
-	report_finding(
-		page,
-		"Three gold balls under %s in equal time, RMS error over the mean. Expected of independent samples, rare "
-		"finds of small lights included: %s errs least, by %.2g, the default by %.2g. The typical picture, which "
-		"such finds are missing from (scrambled samples, median of seeds): %s %.2g (quartiles %.2g - %.2g), then "
-		"%s %.2g (%.2g - %.2g)%s; the default %.2g",
-		light, strategies_name(sure), independent[sure], independent[LOBE_STRATEGY_VISIBLE],
-		strategies_name(best), seeds[best].quartile[1], seeds[best].quartile[0], seeds[best].quartile[2],
-		strategies_name(next), seeds[next].quartile[1], seeds[next].quartile[0], seeds[next].quartile[2],
-		seeds[next].quartile[0] < seeds[best].quartile[2] ? ", which the seeds do not tell apart" : "",
-		seeds[LOBE_STRATEGY_VISIBLE].quartile[1]);
+	report_finding(page,
+		       "Three gold balls under %s in equal time, RMS error over the mean. Expected of independent "
+		       "samples, rare "
+		       "finds of small lights included: %s errs least, by %.2g, the default by %.2g. The typical "
+		       "picture, which "
+		       "such finds are missing from (scrambled samples, median of seeds): %s %.2g (quartiles %.2g - "
+		       "%.2g), then "
+		       "%s %.2g (%.2g - %.2g)%s; the default %.2g",
+		       light, strategies_name(sure), independent[sure], independent[strategies_default(STRATEGIES_GGX)],
+		       strategies_name(best), seeds[best].quartile[1], seeds[best].quartile[0], seeds[best].quartile[2],
+		       strategies_name(next), seeds[next].quartile[1], seeds[next].quartile[0], seeds[next].quartile[2],
+		       seeds[next].quartile[0] < seeds[best].quartile[2] ? ", which the seeds do not tell apart" : "",
+		       seeds[strategies_default(STRATEGIES_GGX)].quartile[1]);
 	report_text(page, "Of the median pixel in the picture shown %s errs least, by %.2g; the default by %.2g.\n\n",
-		    strategies_name(calm), median[calm], median[LOBE_STRATEGY_VISIBLE]);
+		    strategies_name(calm), median[calm], median[strategies_default(STRATEGIES_GGX)]);
 	free(truth.value);
 	free(doubt.value);
 }

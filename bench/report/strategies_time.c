@@ -81,7 +81,7 @@ static int run(int quick, size_t unit, report_rows *rows)
 
 const report_study strategies_time_study = {
 	"strategies_time",
-	"material,light,technique,ns,ns_low,ns_high,of_default,of_default_low,of_default_high",
+	"material,light,technique,ns,ns_low,ns_high,of_visible,of_visible_low,of_visible_high",
 	1,
 	units,
 	run,

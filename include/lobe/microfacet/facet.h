@@ -32,6 +32,26 @@ LOBE_FN lobe_facet_density lobe_facet_density_none(void)
 	return d;
 }
 
+/* What is left of the facets that a direction sees, where those are left out that reflect it below the horizon: of the
+ * part of sigma below the mean plane, z/2 of (t + z)/2, this share. In (0, 1]; 1 leaves out nothing. */
+typedef struct {
+	lobe_real part, whole;
+} lobe_facet_bound;
+
+LOBE_FN lobe_facet_bound lobe_facet_bound_none(void)
+{
+	lobe_facet_bound b;
+	b.part = LOBE_R(1.0);
+	b.whole = LOBE_R(1.0);
+	return b;
+}
+
+/* Twice the area that is left, times whole. */
+LOBE_FN lobe_real lobe_facet_bound_sum(lobe_facet_bound b, lobe_real z, lobe_real t)
+{
+	return lobe_fma(t, b.whole, z * b.part);
+}
+
 /* z_i t_o + z_o t_i, the denominator of G2. */
 LOBE_FN lobe_real lobe_smith_sum(lobe_real z_o, lobe_real t_o, lobe_real z_i, lobe_real t_i)
 {

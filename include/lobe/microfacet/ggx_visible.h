@@ -1,4 +1,4 @@
-/* ggx_visible.h - GGX's visible normals by the ways that came before spherical caps (ggx.h), and by the bounded cap.
+/* ggx_visible.h - GGX's visible normals by the ways that came before spherical caps (ggx.h).
  *
  * For comparison. All are of the surface of width 1 seen from v, of any length and on either side of the horizon. With
  * o = v/t, c = o.z and e the horizontal direction of v, everything happens in the plane of e and z: a visible normal is
@@ -84,32 +84,6 @@ LOBE_FN lobe_vec3 lobe_ggx_visible_slopes(lobe_vec3 v, lobe_vec2 u)
 	const lobe_real w = lobe_ggx_kepler(left ? across : one - across);
 	const lobe_sincos sc = lobe_sincos_2pi(w * (LOBE_R(0.5) / LOBE_2PI));
 	return lobe_ggx_visible_cut(v, along, left ? -sc.c : sc.c, sc.s);
-}
-
-/* Eto and Tokuyoshi 2023, "Bounded VNDF sampling for Smith-GGX reflections": facets that reflect wo below the horizon
- * lie in the lower part of the cap, which can be left out as far as all is so: k of the height below the horizon
- * remains. narrow: the lesser width, at most 1. wo: not stretched. k = 1, the whole cap, from below. */
-LOBE_FN lobe_real lobe_ggx_bounded_k(lobe_real narrow, lobe_vec3 wo)
-{
-	const lobe_real one = LOBE_R(1.0);
-	const lobe_real s = one + lobe_sqrt(lobe_vec3_xy2(wo));
-	const lobe_real s2 = s * s;
-	const lobe_real a = lobe_min(narrow, one);
-	const lobe_real az = a * wo.z;
-	return (one - a) * (one + a) * s2 / lobe_fma(az, az, s2);
-}
-
-/* k: lobe_ggx_bounded_k, or 1 for the whole cap. */
-LOBE_FN lobe_vec3 lobe_ggx_visible_bounded(lobe_vec3 v, lobe_real k, lobe_vec2 u)
-{
-	const lobe_real zero = LOBE_R(0.0), one = LOBE_R(1.0);
-	const lobe_real inv_t = one / lobe_ggx_t(v);
-	const lobe_real c = v.z * inv_t;
-	const lobe_real height = lobe_fma(k, c, one);
-	const lobe_vec3 cap = lobe_spherical_cap(u, height);
-	/* cap.z + c with cap.z = 1 - u height. */
-	const lobe_real z = lobe_fma(one - u.y, height, (one - k) * c);
-	return lobe_vec3_make(lobe_fma(v.x, inv_t, cap.x), lobe_fma(v.y, inv_t, cap.y), lobe_max(z, zero));
 }
 
 #endif

@@ -48,6 +48,21 @@ LOBE_FN lobe_real lobe_ndf_t(lobe_uint ndf, lobe_vec3 v)
 #endif
 }
 
+/* What a reflection need not sample of the facets visible from wo; narrow2: the square of the lesser width. */
+LOBE_FN lobe_facet_bound lobe_ndf_bound(lobe_uint ndf, lobe_real narrow2, lobe_vec3 wo)
+{
+	(void)ndf;
+	(void)narrow2;
+	(void)wo;
+#if LOBE_HAS_NDF_BECKMANN
+	if (LOBE_NDF_IS_BECKMANN(ndf))
+		return lobe_facet_bound_none();
+#endif
+#if LOBE_HAS_NDF_GGX
+	return lobe_ggx_bound(narrow2, wo);
+#endif
+}
+
 /* A normal visible from v, v.z > 0; t: lobe_ndf_t(ndf, v). */
 LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t, lobe_vec2 u)
 {
@@ -59,6 +74,21 @@ LOBE_FN lobe_vec3 lobe_ndf_visible_above(lobe_uint ndf, lobe_vec3 v, lobe_real t
 #endif
 #if LOBE_HAS_NDF_GGX
 	return lobe_ggx_visible_above(v, t, u);
+#endif
+}
+
+/* The same of those that b leaves, which is lobe_ndf_bound's. */
+LOBE_FN lobe_vec3 lobe_ndf_visible_bounded(lobe_uint ndf, lobe_vec3 v, lobe_real t, lobe_facet_bound b, lobe_vec2 u)
+{
+	(void)ndf;
+	(void)t;
+	(void)b;
+#if LOBE_HAS_NDF_BECKMANN
+	if (LOBE_NDF_IS_BECKMANN(ndf))
+		return lobe_beckmann_visible_above(v, u);
+#endif
+#if LOBE_HAS_NDF_GGX
+	return lobe_ggx_visible_bounded(v, t, b, u);
 #endif
 }
 

@@ -1,9 +1,10 @@
 /* reflection.h - a rough mirror: all of an opaque microfacet lobe but its Fresnel term.
  *
  * Cook and Torrance 1982 with the height-correlated masking and shadowing of Heitz 2014 (eq. 99) and visible-normal
- * sampling (Heitz and d'Eon 2014; for GGX by spherical caps, Dupuy and Benyoub 2023):
- *	f = F D G2/(4 z_o z_i),   pdf = D/(4 sigma(wo)),   weight = F G2/G1(wo)
- * 0 when either direction is at or below the surface. Everything is written with the unnormalised half vector
+ * sampling (Heitz and d'Eon 2014; for GGX by spherical caps, Dupuy and Benyoub 2023, of which the part that reflects
+ * below the horizon is mostly left out, Eto and Tokuyoshi 2023):
+ *	f = F D G2/(4 z_o z_i),   pdf = D/(4 area),   weight = F G2 area/z_o = 2 F z_i area/(z_i t_o + z_o t_i)
+ * area being sigma(wo), of which GGX leaves (t + k z)/2. 0 when either direction is at or below the surface. Everything is written with the unnormalised half vector
  * H = wo + wi, h2 = |H|^2, and o.h = |H|/2, which for unit directions does not cancel as the dot product does when both
  * graze.
  *
@@ -35,19 +36,13 @@ LOBE_FN lobe_real lobe_reflection_cosine(lobe_real h2) { return lobe_min(LOBE_R(
 /* The squares of H = wo + wi. */
 LOBE_FN lobe_vec3 lobe_reflection_half(lobe_vec3 wo, lobe_vec3 wi) { return lobe_vec3_squares(lobe_vec3_add(wo, wi)); }
 
-/* D(h)/(4 sigma(wo)) [1/sr]; h: those squares, two_sigma = 2 sigma(wo). NaN for H = 0. */
-LOBE_FN lobe_real lobe_reflection_density(lobe_uint ndf, lobe_stretch s, lobe_vec3 h, lobe_real two_sigma)
+/* x y D(h)/(2 s^2) [1/sr]; h: those squares. x and y over s are near 1 where s is small. NaN for H = 0. */
+LOBE_FN lobe_real lobe_reflection_density(lobe_uint ndf, lobe_stretch stretch, lobe_vec3 h, lobe_real s, lobe_real x,
+					  lobe_real y)
 {
-	const lobe_facet_density d = lobe_ndf_density_over(ndf, lobe_stretch_facet_squares(s, h), two_sigma);
-	const lobe_real x = lobe_vec3_sum(h) * d.inv;
-	return (LOBE_R(0.5) * s.norm) * two_sigma * (x * x) * d.factor;
-}
-
-/* x G2/G1(wo) */
-LOBE_FN lobe_real lobe_reflection_weight(lobe_uint ndf, lobe_stretch s, lobe_real z_o, lobe_real t_o, lobe_vec3 wi,
-					 lobe_real x)
-{
-	return x * (wi.z * (z_o + t_o)) / lobe_smith_sum(z_o, t_o, wi.z, lobe_reflection_t(ndf, s, wi));
+	const lobe_facet_density d = lobe_ndf_density_over(ndf, lobe_stretch_facet_squares(stretch, h), s);
+	const lobe_real root = lobe_vec3_sum(h) * d.inv;
+	return (LOBE_R(0.5) * stretch.norm) * (x * root) * (y * root) * d.factor;
 }
 
 /* f |cos theta_i|/F [1/sr], and |H|^2 for Fresnel. ok: else the lobe is 0. */
@@ -57,16 +52,15 @@ typedef struct {
 	int ok;
 } lobe_reflection_eval;
 
-/* As the density of a sample times its weight, of which pdf and sample compute the same. */
 LOBE_FN lobe_reflection_eval lobe_reflection_eval_at(lobe_uint ndf, lobe_stretch s, lobe_real params, lobe_vec3 wo,
 						     lobe_vec3 wi)
 {
 	const lobe_vec3 h = lobe_reflection_half(wo, wi);
 	const lobe_real t_o = lobe_reflection_t(ndf, s, wo);
 	lobe_reflection_eval r;
+	const lobe_real sum = lobe_smith_sum(wo.z, t_o, wi.z, lobe_reflection_t(ndf, s, wi));
 	r.h2 = lobe_vec3_sum(h);
-	const lobe_real density = lobe_reflection_density(ndf, s, h, wo.z + t_o);
-	r.value = lobe_reflection_weight(ndf, s, wo.z, t_o, wi, density);
+	r.value = lobe_reflection_density(ndf, s, h, sum, wi.z, sum);
 	r.ok = lobe_reflection_ok(params, wo, wi);
 	return r;
 }
@@ -74,8 +68,9 @@ LOBE_FN lobe_reflection_eval lobe_reflection_eval_at(lobe_uint ndf, lobe_stretch
 /* [1/sr] */
 LOBE_FN lobe_real lobe_reflection_pdf(lobe_uint ndf, lobe_stretch s, lobe_real params, lobe_vec3 wo, lobe_vec3 wi)
 {
-	const lobe_real two_sigma = wo.z + lobe_reflection_t(ndf, s, wo);
-	const lobe_real pdf = lobe_reflection_density(ndf, s, lobe_reflection_half(wo, wi), two_sigma);
+	const lobe_facet_bound b = lobe_ndf_bound(ndf, lobe_stretch_narrow2(s), wo);
+	const lobe_real area = lobe_facet_bound_sum(b, wo.z, lobe_reflection_t(ndf, s, wo));
+	const lobe_real pdf = lobe_reflection_density(ndf, s, lobe_reflection_half(wo, wi), area, b.whole, area);
 	const int ok = lobe_reflection_ok(params, wo, wi) & (pdf <= LOBE_REAL_MAX);
 	return ok ? pdf : LOBE_R(0.0);
 }
@@ -92,12 +87,15 @@ LOBE_FN lobe_reflection_sample lobe_reflection_sample_at(lobe_uint ndf, lobe_str
 {
 	const lobe_vec3 v = lobe_stretch_direction(s, wo);
 	const lobe_real t_o = lobe_ndf_t(ndf, v);
-	const lobe_vec3 m = lobe_stretch_normal(s, lobe_ndf_visible_above(ndf, v, t_o, lobe_vec2_make(u.x, u.y)));
+	const lobe_facet_bound b = lobe_ndf_bound(ndf, lobe_stretch_narrow2(s), wo);
+	const lobe_real area = lobe_facet_bound_sum(b, wo.z, t_o);
+	const lobe_vec3 m = lobe_stretch_normal(s, lobe_ndf_visible_bounded(ndf, v, t_o, b, lobe_vec2_make(u.x, u.y)));
 	lobe_reflection_sample r;
 	r.wi = lobe_reflect(wo, m, lobe_dot(wo, m) / lobe_dot(m, m));
 	r.pdf = lobe_reflection_pdf(ndf, s, params, wo, r.wi);
 	r.h2 = lobe_vec3_sum(lobe_reflection_half(wo, r.wi));
-	r.weight = lobe_finite_or_zero(lobe_reflection_weight(ndf, s, wo.z, t_o, r.wi, LOBE_R(1.0)));
+	const lobe_real sum = lobe_smith_sum(wo.z, t_o, r.wi.z, lobe_reflection_t(ndf, s, r.wi));
+	r.weight = lobe_finite_or_zero((r.wi.z * area) / (b.whole * sum));
 	return r;
 }
 

@@ -4,15 +4,16 @@
  * distribution itself or, for what only GGX has, that of the GGX surface of the same linear map; then D cancels in a
  * weight, where two huge numbers would be divided otherwise. rate is 1/sigma for visible normals.
  *
- * VISIBLE		the distribution's own visible normals: what production lobes do
+ * VISIBLE		the distribution's own visible normals: what production lobes do but for reflections by GGX
  * UNIFORM, COSINE	no facet: a direction uniform over what the lobe can reach, a hemisphere or, where it transmits, the
  *			sphere; or by its cosine, on either side with probability 1/2
  * NDF			D(m) m.z (Walter et al. 2007): facets whether visible or not
  * VISIBLE_SLOPES	GGX's visible normals, slope by slope (Heitz and d'Eon 2014)
  * VISIBLE_ELLIPSOID	the same on the projected ellipsoid (Heitz 2018)
  * VISIBLE_CAP		the same by spherical caps (Dupuy and Benyoub 2023)
- * BOUNDED_CAP		those of them that reflect above the horizon, and few others (Eto and Tokuyoshi 2023). The bound is one
- *			of reflection by a surface without shear; for any other it is VISIBLE_CAP
+ * BOUNDED_CAP		those of them that reflect above the horizon, and few others (Eto and Tokuyoshi 2023): what
+ *			production lobes of GGX do that only reflect. The bound is one of reflection by a surface without
+ *			shear; for any other it is VISIBLE_CAP
  * VCAVITY		the visible sides of V-cavities (Heitz and d'Eon 2014). Nothing where the mean plane shows its back
  * HEMISPHERE		a point of the disk under the standard hemisphere, whose normal the map turns into one of the
  *			surface (Atanasov et al. 2022): 1/pi per area, times z to a solid angle of normals, times
@@ -57,15 +58,22 @@ LOBE_FN int lobe_strategy_borrows_ggx(lobe_uint strategy, lobe_microsurface s)
 	return of_ggx & (LOBE_CHOSEN(s.distribution.ndf, LOBE_ONLY_NDF) != LOBE_NDF_GGX);
 }
 
-/* A direction and a normal of the surface of width 1, as the GGX surface of width s.like has them. */
+/* s.like, which of GGX itself is 1. */
+LOBE_FN lobe_real lobe_strategy_like(lobe_microsurface s)
+{
+	return LOBE_CHOSEN(s.distribution.ndf, LOBE_ONLY_NDF) == LOBE_NDF_GGX ? LOBE_R(1.0) : s.like;
+}
+
+/* A direction and a normal of the surface of width 1, as the GGX surface of that width has them. */
 LOBE_FN lobe_vec3 lobe_strategy_ggx_direction(lobe_microsurface s, lobe_vec3 v)
 {
-	return lobe_vec3_make(s.like * v.x, s.like * v.y, v.z);
+	const lobe_real like = lobe_strategy_like(s);
+	return lobe_vec3_make(like * v.x, like * v.y, v.z);
 }
 
 LOBE_FN lobe_vec3 lobe_strategy_ggx_facet(lobe_microsurface s, lobe_vec3 h)
 {
-	const lobe_real inv = LOBE_R(1.0) / s.like;
+	const lobe_real inv = LOBE_R(1.0) / lobe_strategy_like(s);
 	return lobe_vec3_make(inv * h.x, inv * h.y, h.z);
 }
 
@@ -74,7 +82,7 @@ LOBE_FN lobe_facet_density lobe_strategy_density(lobe_uint strategy, lobe_micros
 						 lobe_facet_density own)
 {
 	lobe_facet_density ggx = lobe_ggx_density(lobe_strategy_ggx_facet(s, h));
-	ggx.factor = LOBE_R(1.0) / (s.like * s.like);
+	ggx.factor = LOBE_R(1.0) / (lobe_strategy_like(s) * lobe_strategy_like(s));
 	return lobe_strategy_borrows_ggx(strategy, s) ? ggx : own;
 }
 
@@ -85,13 +93,15 @@ LOBE_FN lobe_real lobe_strategy_ratio(lobe_facet_density d, lobe_facet_density d
 	return x * x * (d.factor / d_s.factor);
 }
 
-/* The bound's k for wo above the surface; transmits: the lobe refracts too. */
-LOBE_FN lobe_real lobe_strategy_bound(lobe_uint strategy, lobe_microsurface s, lobe_vec3 wo, lobe_real z, int transmits)
+/* For wo above the surface; transmits: the lobe refracts too. */
+LOBE_FN lobe_facet_bound lobe_strategy_bound(lobe_uint strategy, lobe_microsurface s, lobe_vec3 wo, lobe_real z,
+					     int transmits)
 {
 	const lobe_real zero = LOBE_R(0.0);
 	const int sheared = (s.map.mean_x != zero) | (s.map.mean_y != zero);
 	const int bounded = (strategy == LOBE_STRATEGY_BOUNDED_CAP) & !sheared & !transmits & (z > zero);
-	return bounded ? lobe_ggx_bounded_k(s.narrow, wo) : LOBE_R(1.0);
+	const lobe_real narrow = lobe_min(s.narrow, LOBE_R(1.0));
+	return bounded ? lobe_ggx_bound(narrow * narrow, wo) : lobe_facet_bound_none();
 }
 
 /* m: a normal of the surface of width 1, of any length. rest: of u.z, a random number still. */
@@ -106,7 +116,7 @@ LOBE_FN_APART lobe_strategy_facet lobe_strategy_sample(lobe_uint strategy, lobe_
 {
 	const lobe_vec2 u2 = lobe_vec2_make(u.x, u.y);
 	const lobe_vec3 v = lobe_strategy_ggx_direction(s, o.v);
-	const lobe_real k = lobe_strategy_bound(strategy, s, wo, o.v.z, transmits);
+	const lobe_facet_bound b = lobe_strategy_bound(strategy, s, wo, o.v.z, transmits);
 	lobe_strategy_facet f;
 	f.rest = u.z;
 	switch (strategy) {
@@ -133,7 +143,7 @@ LOBE_FN_APART lobe_strategy_facet lobe_strategy_sample(lobe_uint strategy, lobe_
 		f.m = lobe_cosine_hemisphere(u2);
 		break;
 	default:
-		f.m = k < LOBE_R(1.0) ? lobe_ggx_visible_bounded(v, k, u2) : lobe_ggx_visible(v, u2);
+		f.m = b.part < b.whole ? lobe_ggx_visible_bounded(v, lobe_ggx_t(v), b, u2) : lobe_ggx_visible(v, u2);
 		break;
 	}
 	f.m = lobe_strategy_ggx_direction(s, f.m); /* a normal scales like a direction, towards the wider surface */
@@ -147,7 +157,7 @@ LOBE_FN_APART lobe_real lobe_strategy_rate(lobe_uint strategy, lobe_microsurface
 	const lobe_real one = LOBE_R(1.0), zero = LOBE_R(0.0);
 	const lobe_vec3 v = lobe_strategy_ggx_direction(s, o.v);
 	const lobe_real sigma = o.z + lobe_ggx_hidden(v);
-	const lobe_real k = lobe_strategy_bound(strategy, s, wo, o.v.z, transmits);
+	const lobe_facet_bound b = lobe_strategy_bound(strategy, s, wo, o.v.z, transmits);
 	switch (strategy) {
 	case LOBE_STRATEGY_VISIBLE:
 		return one / o.sigma;
@@ -157,7 +167,8 @@ LOBE_FN_APART lobe_real lobe_strategy_rate(lobe_uint strategy, lobe_microsurface
 	case LOBE_STRATEGY_VCAVITY:
 		return lobe_vcavity_g1_over_cos(o.z, m.o, m.z);
 	case LOBE_STRATEGY_BOUNDED_CAP:
-		return one / (k < one ? LOBE_R(0.5) * lobe_fma(k, o.v.z, lobe_ggx_t(v)) : sigma);
+		return b.part < b.whole ? (b.whole + b.whole) / lobe_facet_bound_sum(b, o.v.z, lobe_ggx_t(v))
+					: one / sigma;
 	case LOBE_STRATEGY_VISIBLE_SLOPES:
 	case LOBE_STRATEGY_VISIBLE_ELLIPSOID:
 	case LOBE_STRATEGY_VISIBLE_CAP:

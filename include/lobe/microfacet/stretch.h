@@ -38,6 +38,13 @@ LOBE_FN lobe_stretch lobe_stretch_make(lobe_real alpha_x, lobe_real alpha_y)
 	return s;
 }
 
+/* The square of the lesser width. */
+LOBE_FN lobe_real lobe_stretch_narrow2(lobe_stretch s)
+{
+	const lobe_real narrow = lobe_min(s.alpha_x, s.alpha_y);
+	return narrow * narrow;
+}
+
 /* The direction in which the surface of width 1 is seen, when the stretched one is seen from w. */
 LOBE_FN lobe_vec3 lobe_stretch_direction(lobe_stretch s, lobe_vec3 w)
 {
